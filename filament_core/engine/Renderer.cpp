@@ -3,6 +3,7 @@
 
 #include "backend/stream/RecordingGuards.h"
 #include "base/OutOfMemory.h"
+#include "filament_core/engine/FogHistory.h"
 #include "filament_core/engine/FrameResourceCache.h"
 #include "filament_core/engine/FrameSummary.h"
 #include "filament_core/engine/FrameTimingLog.h"
@@ -14,6 +15,7 @@
 #include "filament_core/engine/ShadowTexture.h"
 #include "filament_core/engine/TextureStreamer.h"
 #include "filament_core/passes/DebugDrawPass.h"
+#include "filament_core/passes/FogLightPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/SplatPass.h"
@@ -118,8 +120,8 @@ struct Renderer::Impl final : engine::Dependent {
               data(*engine.stream), blocks(*engine.stream),
               debugBuffers(*engine.stream, sizeof(prepare::DebugVertex), "debug draw"),
               splatBuffers(*engine.stream, sizeof(prepare::SplatVertex), "splats"), shadows(engine), probes(engine),
-              graph(arena), transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine),
-              imageTarget(engine) {
+              fogHistory(engine), graph(arena), transients(*engine.stream), ranges(engine.jobs), timings(engine),
+              pixels(engine), imageTarget(engine) {
         engine.dependents.push_back(this);
     }
 
@@ -137,6 +139,7 @@ struct Renderer::Impl final : engine::Dependent {
         splatBuffers.destroy(engine.pending);
         shadows.destroy();
         probes.destroy();
+        fogHistory.destroy();
         transients.destroyAll(engine.pending);
         imageTarget.destroy();
         picker.reset();
@@ -202,12 +205,24 @@ struct Renderer::Impl final : engine::Dependent {
         return context;
     }
 
+    void useFogHistory(FrameContext& context, bool isExpected) {
+        passes::FrameResources& used = context.resources;
+        used.lastFogLight = used.fogLight = used.noFogCells;
+        const uint32_t bytes = passes::fogLightBytes(context);
+        if (isExpected || bytes == 0) return;
+        fogHistory.use(bytes);
+        used.lastFogLight = fogHistory.previous();
+        used.fogLight = fogHistory.current();
+        if (!fogHistory.isKept()) context.packet.fogAccumulation = {};
+    }
+
     /// An expected frame changes neither maps nor probes: any texture replaces them.
     void useKept(FrameContext& context, PipelineSource const& pipelines) {
         passes::FrameResources& used = context.resources;
         if (!pipelines.isRequesting()) shadows.use(context.packet.shadows);
         used.shadowAtlas = pipelines.isRequesting() ? used.white : shadows.depths();
         used.shadowMoments = pipelines.isRequesting() ? used.white : shadows.moments();
+        useFogHistory(context, pipelines.isRequesting());
         if (context.packet.probes.empty()) return;
         if (!pipelines.isRequesting()) probes.use(context.packet.probes);
         used.lighting.probes = pipelines.isRequesting() ? used.lighting.specular : probes.texture();
@@ -254,6 +269,7 @@ struct Renderer::Impl final : engine::Dependent {
         if (target.generatesMips && !target.isSrgb()) commands->record(CmdGenerateMips{ target.color.handle });
         shadows.keep(context.packet.shadows);
         probes.keep(context.packet.probes);
+        fogHistory.keep(passes::fogLightBytes(context));
     }
 
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
@@ -405,6 +421,7 @@ struct Renderer::Impl final : engine::Dependent {
     passes::QuadBuffers debugBuffers, splatBuffers;
     engine::ShadowTexture shadows;
     engine::ProbeTexture probes;
+    engine::FogHistory fogHistory;
     prepare::FieldCache fields;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;

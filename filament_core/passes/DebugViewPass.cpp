@@ -65,7 +65,7 @@ ChosenDebugView choose(PassContext& pass, FrameContext const& context, DebugInpu
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
     return { pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.debugView),
              passGroup(pass, context, shader::PassKind::Unlit, inputs.target,
-                       { .shadows = inputs.shadows, .probes = inputs.probes }),
+                       { .shadows = inputs.shadows, .fogCells = inputs.targets.fogCells, .probes = inputs.probes }),
              picturesOf(pass, context, inputs.targets) };
 }
 
@@ -82,6 +82,7 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
                 if (targets.ambientOcclusion) pass.readSampled(targets.ambientOcclusion);
                 if (targets.motionVectors) pass.readSampled(targets.motionVectors);
+                if (targets.fogCells) pass.readBuffer(targets.fogCells, framegraph::BufferUse::Storage);
                 pass.writeColor(0, targets.output, { .overwrites = true });
             },
             [of = &context, inputs](PassContext& pass) { return choose(pass, *of, inputs); },

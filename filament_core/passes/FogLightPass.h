@@ -16,4 +16,7 @@ void addFogLightPass(framegraph::FrameGraph& graph, FrameContext const& context,
 /// Of FrameTargets::fogCells.
 uint32_t fogCellBytes(FrameContext const& context);
 
+/// Of what the frame leaves to the next one (Fog::volumetricFrames); 0: nothing.
+uint32_t fogLightBytes(FrameContext const& context);
+
 } // namespace filament_core::passes

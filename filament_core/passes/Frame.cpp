@@ -66,7 +66,8 @@ uint8_t fogTermsOf(prepare::FramePacket const& packet) {
     }
     const bool hasSun = packet.mainView().counts.suns > 0;
     if (fog.inScatteringSize > 0 && hasSun && !fog.volumetric) terms |= shader::kFogSun;
-    if (packet.demand.needs(prepare::Effect::VolumetricFog)) terms |= shader::kFogScattering | shader::kFogCells;
+    if (packet.demand.needs(prepare::Effect::VolumetricFog))
+        terms |= shader::kFogScattering | (fog.noiseAmplitude > 0 ? shader::kFogVaries : shader::kFogCells);
     if (fog.volumetric && hasSun) terms |= shader::kFogScattering;
     return static_cast<uint8_t>(terms);
 }

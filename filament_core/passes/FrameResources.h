@@ -41,6 +41,7 @@ struct FrameResources {
     DispatchCache* dispatches = nullptr;
     backend::TextureHandle white{};                  ///< 2D, of one opaque white texel
     backend::BufferHandle noFogCells;                ///< storage, of one float4: where no fog is lit
+    backend::BufferHandle lastFogLight, fogLight;    ///< storage: FogHistory; noFogCells without
     backend::BufferHandle instanceIds;               ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::MaterialInstance const* motion = nullptr; ///< draws motion; null: none is asked for
     /// Leave depths of levels of detail that fade, by their front faces and by both; null: none fades.

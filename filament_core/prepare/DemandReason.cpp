@@ -38,6 +38,8 @@ constexpr std::array kReasons{
                .others = ", of which {others} pixels are copied" },
     ReasonRow{ .reason = R::RequestedByLights, .text = "{count} lights ask for them", .one = "1 light asks for them" },
     ReasonRow{ R::FogLights, "lit by {count} lights of the list; {others} cascades of the sun" },
+    ReasonRow{ R::FogVaries, "its density varies" },
+    ReasonRow{ R::FogWeakensSun, "it weakens the sun's light on its way" },
     ReasonRow{ R::CameraInFog, "lies between the camera and what is visible" },
     ReasonRow{ R::ObjectsMove, "{count} in view moved" },
     ReasonRow{ R::CameraMoves, "the camera moves" },

@@ -29,6 +29,8 @@ enum class DemandReason : uint8_t {
     SamplesSceneColor,   ///< `count` draws do; `others` pixels of it are copied
     RequestedByLights,   ///< by `count` of them
     FogLights,           ///< fog is lit by `count` lights of the list, and shadows of `others` cascades lie in it
+    FogVaries,           ///< the density of fog varies from place to place
+    FogWeakensSun,       ///< fog weakens the sun's light on its way
     CameraInFog,         ///< fog lies between the camera and what is visible
     ObjectsMove,         ///< `count` opaque objects in view do
     CameraMoves,         ///< and nothing else

@@ -143,8 +143,11 @@ EffectDemand demandOfVolumetricFog(DemandInput const& input) {
     const EffectDemand fog = demandOfFog(input);
     if (!fog.isNeeded) return fog;
     if (!input.settings.effects.fog.volumetric) return { .reason = R::SwitchedOff };
-    if (input.counts.lights == 0 && input.cascades == 0) return { .reason = R::FogUnshadowed };
-    return { true, R::FogLights, input.counts.lights, input.cascades };
+    if (input.counts.lights > 0 || input.cascades > 0)
+        return { true, R::FogLights, input.counts.lights, input.cascades };
+    if (input.settings.effects.fog.noiseAmplitude > 0) return { true, R::FogVaries };
+    if (input.settings.effects.fog.attenuatesLight && input.counts.suns > 0) return { true, R::FogWeakensSun };
+    return { .reason = R::FogUnshadowed };
 }
 
 // ------------------------------------------------------------------------------------------------ geometry

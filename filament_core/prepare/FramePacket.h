@@ -188,12 +188,20 @@ struct Accumulation {
     float ramp = 0;           ///< of an image that accumulation enlarges: half the width of its filter's edges, pixels
 };
 
+/// How this frame's light in volumetric fog adds to the mean over frames (Fog::volumetricFrames).
+struct FogAccumulation {
+    float3 place{ 0.5f }; ///< of this frame's sample in each cell, [0, 1)
+    float weight = 1;     ///< of this frame in the mean, (0, 1]; 1: there is none before
+    float exposure = 1;   ///< of this frame, by that of the last one
+};
+
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
     FrameSettings settings;            ///< of the main view
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
     Accumulation accumulation;         ///< of the main view
+    FogAccumulation fogAccumulation;   ///< of the main view
     Focus focus;                       ///< of the main view
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views

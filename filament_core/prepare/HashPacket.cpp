@@ -77,7 +77,8 @@ uint64_t hashPacket(FramePacket const& packet) {
                      packet.last.isReflected);
     hash = hashValues(hash, packet.settings.size, packet.settings.shownSize, packet.settings.band, packet.covered,
                       packet.accumulation.jitterPixels, packet.accumulation.weight, packet.accumulation.ramp,
-                      packet.focus, packet.last.secondsSince);
+                      packet.focus, packet.last.secondsSince, packet.fogAccumulation.place,
+                      packet.fogAccumulation.weight, packet.fogAccumulation.exposure);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm,

@@ -38,6 +38,9 @@ float rampOf(float accumulated) {
 void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) {
     const ViewSpace space = makeViewSpace(view);
     const bool isFollowing = isAccumulatedBy(scene, packet.settings);
+    const bool keepsFog =
+            packet.demand.needs(Effect::VolumetricFog) && packet.settings.effects.fog.volumetricFrames > 1;
+    const bool hasFog = hasFogOf(scene, packet.settings);
     mSeen = { view,
               packet.settings,
               scene.serial,
@@ -47,6 +50,7 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
               packet.mainView().uniforms.time };
     const bool accumulates = packet.demand.needs(Effect::Taa);
     mJitters = accumulates ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
+    mFogFrames = keepsFog ? (hasFog ? mFogFrames : 0) + 1 : 0;
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
     mIsReflected = packet.demand.needs(Effect::Reflections);
     mAccumulated = accumulates ? 1 / packet.accumulation.weight : 0;
@@ -108,6 +112,29 @@ Accumulation LastFrame::accumulation(scene::SceneData const& scene, ViewInput co
     accumulation.weight = 1 / (1 + accumulated);
     if (isEnlarged && isStill) accumulation.ramp = rampOf(accumulated);
     return accumulation;
+}
+
+/// Whether the last frame left light in cells that this frame's lie in the order of.
+bool LastFrame::hasFogOf(scene::SceneData const& scene, FrameSettings const& settings) const {
+    if (mFogFrames == 0 || !isFollowedBy(scene, settings)) return false;
+    Fog const &now = settings.effects.fog, &last = mSeen->settings.effects.fog;
+    return mSeen->settings.size == settings.size && last.volumetricPixels == now.volumetricPixels &&
+           last.volumetricSlices == now.volumetricSlices && last.volumetricMeters == now.volumetricMeters;
+}
+
+// Roberts 2018, as jitterPixels(), in three dimensions: multiples of the inverse powers of 1.2207, the root of
+// x^4 = x + 1. The first is the middle of the cell. Frames count equally until there are as many as asked for.
+FogAccumulation LastFrame::fogAccumulation(scene::SceneData const& scene, ViewInput const& view,
+                                           FrameSettings const& settings) const {
+    constexpr uint32_t kPlaces = 1024;
+    const uint32_t most = settings.effects.fog.volumetricFrames;
+    if (most <= 1 || !hasFogOf(scene, settings)) return {};
+    const double3 place = double3(0.81917251339616444, 0.67104360670378920, 0.54970047790197026) *
+                                  static_cast<double>(mFogFrames % kPlaces) +
+                          0.5;
+    return { .place = float3(glm::fract(place)),
+             .weight = 1.0f / static_cast<float>(std::min(mFogFrames + 1, most)),
+             .exposure = view.camera.exposure.factor() / mSeen->view.camera.exposure.factor() };
 }
 
 /// Of what moved lately; the rest is where it was, or the scene saves where that is.

@@ -39,6 +39,9 @@ public:
     float2 jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const;
     /// The mean of all frames since something changed.
     Accumulation accumulation(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
+    /// Of the light in volumetric fog: the mean of the last Fog::volumetricFrames or so.
+    FogAccumulation fogAccumulation(scene::SceneData const& scene, ViewInput const& view,
+                                    FrameSettings const& settings) const;
 
     /// The levels of detail that it drew; none if they were not asked for.
     std::span<const DrawnLevel> levels() const { return mLevels; }
@@ -72,10 +75,12 @@ private:
     void keepPlacements(scene::Renderables const& renderables);
     bool isAccumulatedBy(scene::SceneData const& scene, FrameSettings const& settings) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
+    bool hasFogOf(scene::SceneData const& scene, FrameSettings const& settings) const;
 
     std::optional<Seen> mSeen;
     uint32_t mJitters = 0;                             ///< frames in a row that were accumulated
     float mAccumulated = 0;                            ///< accumulated frames
+    uint32_t mFogFrames = 0;                           ///< frames in a row whose fog was accumulated
     bool mIsExposed = false;                           ///< by AutoExposure
     bool mIsReflected = false;                         ///< its scene colour was kept for reflections
     std::vector<DrawnLevel> mLevels;                   // by position

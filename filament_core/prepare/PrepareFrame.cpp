@@ -205,6 +205,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // The demand comes after all that it counts; what only an effect needs, after the demand.
     packet.demand = demandOf(scene, packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
+    if (packet.demand.needs(Effect::VolumetricFog))
+        packet.fogAccumulation = last.fogAccumulation(scene, main, packet.settings);
     if (packet.demand.needs(Effect::Taa)) packet.accumulation = last.accumulation(scene, main, packet);
     // Last: receivers of shadows, blur and the rest follow from what is in view, hidden or not, as without.
     if (settings.cullsOccluded) hideFromMainView(jobs, arena, scene, drawn[0], packet);

@@ -84,6 +84,12 @@ PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
     return data;
 }
 
+/// Of the sun's light, what reaches the camera through fog that falls off with height; under fog without end, none.
+float sunThroughFog(shader::FrameUniforms const& frame) {
+    const float rate = frame.fogMedium.y * frame.sunDirection.y;
+    return rate > 0 ? elementary::exp(-elementary::exp(std::clamp(frame.fogMedium.x, -80.0f, 50.0f)) / rate) : 0.0f;
+}
+
 /// Returns the sun of the uniforms, the brightest.
 LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure,
                             ViewCounts& counts) {
@@ -97,6 +103,7 @@ LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& l
     frame.sunIlluminance = brightest ? float4(brightest->color * (brightest->intensity * exposure), 0) : float4(0);
     frame.fogSunDirection = float4(float3(frame.sunDirection), frame.fogSunDirection.w);
     frame.fogSun = float4(float3(frame.fogSun) * float3(frame.sunIlluminance), frame.fogSun.w);
+    if (frame.fogGrid.z > 0 && frame.fogSun.w == 0) frame.fogSun.w = sunThroughFog(frame);
     frame.contactShadows.w = brightest && brightest->contactShadows ? 1.0f : 0.0f;
     return brightest;
 }

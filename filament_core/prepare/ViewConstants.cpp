@@ -67,22 +67,35 @@ float4 fogGrid(Fog const& fog, uint2 size) {
     return float4(float2(columns()), fog.volumetricSlices, fog.volumetricMeters);
 }
 
+/// The camera in the lattice of the noise, which the wind carries along: in double precision, because swirls must not
+/// jump after hours or far from the origin.
+float4 fogNoise(Fog const& fog, double3 camera, double seconds) {
+    constexpr double kPeriod = 256; // cells of the widest octave, as in fog.glsl
+    const auto size = static_cast<double>(fog.noiseMeters);
+    const double3 place = (camera - double3(fog.noiseWind) * seconds) / (size * kPeriod);
+    return float4(float3((place - glm::floor(place)) * kPeriod), static_cast<float>(1 / size));
+}
+
 /// `hasLight`: of an environment, which the colour is relative to.
-void writeFog(shader::FrameUniforms& frame, Fog const& fog, double cameraHeight, bool hasLight, uint2 size) {
+void writeFog(shader::FrameUniforms& frame, ViewInput const& view, double3 camera, bool hasLight) {
     constexpr float kTwoPi = 6.28318531f, kNever = 1e30f;
     frame.fogMedium = frame.fogLight = frame.fogSun = frame.fogSunDirection = float4(0);
-    frame.fogGrid = frame.fogScattering = float4(0);
+    frame.fogGrid = frame.fogScattering = frame.fogNoise = frame.fogVariation = float4(0);
+    Fog const& fog = view.effects.fog;
     if (!fog.enabled) return;
-    frame.fogMedium = float4(logDensityAt(cameraHeight, fog), fog.heightFalloff, fog.startMeters,
+    frame.fogMedium = float4(logDensityAt(camera.y, fog), fog.heightFalloff, fog.startMeters,
                              fog.cutOffMeters > 0 ? fog.cutOffMeters : kNever);
     frame.fogLight = float4(fog.color * (hasLight ? frame.ambient.x : 1.0f), fog.maximumOpacity);
     const float glow = fog.inScatteringSize > 0 ? (fog.inScatteringSize + 1) / kTwoPi : 0.0f;
     frame.fogSun = float4(float3(glow), fog.inScatteringSize); // times the sun: SelectLights.cpp
     frame.fogSunDirection = float4(0, 1, 0, std::max(fog.startMeters, fog.inScatteringStartMeters));
     if (!fog.volumetric) return;
-    frame.fogGrid = fogGrid(fog, size);
+    frame.fogGrid = fogGrid(fog, view.size);
     frame.fogScattering = float4(fog.albedo / (2 * kTwoPi), fog.anisotropy);
-    frame.fogSun = frame.fogScattering;
+    frame.fogSun = float4(float3(frame.fogScattering), fog.attenuatesLight ? 0.0f : 1.0f); // 0: see SelectLights.cpp
+    if (fog.noiseAmplitude <= 0) return;
+    frame.fogNoise = fogNoise(fog, camera, view.timeSeconds);
+    frame.fogVariation = float4(fog.noiseAmplitude, fog.noiseOctaves, 0, 0);
 }
 
 } // namespace
@@ -140,7 +153,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
     ContactShadows const& contact = view.effects.contactShadows;
     frame.contactShadows = float4(contact.distanceMeters, contact.thicknessMeters, contact.steps, 0);
-    writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular), view.size);
+    writeFog(frame, view, space.cameraWorld, static_cast<bool>(light.specular));
 }
 
 } // namespace filament_core::prepare

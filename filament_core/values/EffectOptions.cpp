@@ -67,6 +67,14 @@ Rows fogRows() {
                     "Distance at which the cells of volumetric fog end."),
              option("fog.volumetricPixels", &E::volumetricPixels, { 8, 64, "pixels" }, "Width of a column of cells."),
              option("fog.volumetricSlices", &E::volumetricSlices, { 8, 128 }, "Cells of a column."),
+             option("fog.volumetricFrames", &E::volumetricFrames, { 1, 64, "frames" },
+                    "Over which the light of a cell is averaged."),
+             option("fog.attenuatesLight", &E::attenuatesLight, "Weakens light on its way to volumetric fog."),
+             option("fog.noiseAmplitude", &E::noiseAmplitude, { 0, 1 },
+                    "Share by which the density of volumetric fog varies."),
+             option("fog.noiseMeters", &E::noiseMeters, { 0.01, 1e4, kMeters }, "Size of the largest swirls."),
+             option("fog.noiseOctaves", &E::noiseOctaves, { 1, 4 }, "Sizes of swirls, each half of the one before."),
+             option("fog.noiseWind", &E::noiseWind, { -1e3, 1e3, "X,Y,Z" }, "Moves the swirls, in metres a second."),
              option("fog.inScatteringSize", &E::inScatteringSize, { 0, 1e3 },
                     "Exponent of the cosine of the sun's glow; 0: none.") };
 }

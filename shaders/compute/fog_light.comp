@@ -10,10 +10,28 @@ layout(set = 2, binding = 0, std430) writeonly buffer WrittenFogCells {
     uvec2 borders[];
 } writtenFogCells;
 
+layout(set = 2, binding = 1, std140) uniform FogHistoryUniforms {
+    mat4 lastClipFromWorld; // from this frame's world
+    vec4 lastAlongView;
+    vec4 place; // xyz: of this frame's sample in a cell, [0, 1); w: its weight
+    vec4 exposure; // x: of this frame, by that of the last one
+} fogHistory;
+
+// The light of a full cell: a column's cells follow each other.
+layout(set = 2, binding = 2, std430) readonly buffer LastFogLight {
+    uvec2 cells[];
+} lastFogLight;
+
+layout(set = 2, binding = 3, std430) writeonly buffer WrittenFogLight {
+    uvec2 cells[];
+} writtenFogLight;
+
 #include "shaders/lib/light.glsl"
 #include "shaders/lib/ltc.glsl"
 #include "shaders/lib/profiles.glsl"
 #include "shaders/lib/fog.glsl"
+#include "shaders/lib/fog_noise.glsl"
+#include "shaders/lib/noise.glsl"
 #define HAS_SHADOW_MOMENTS
 #include "shaders/lib/moments.glsl"
 #include "shaders/material/surface/shadow_maps.glsl"
@@ -24,6 +42,10 @@ layout(set = 2, binding = 0, std430) writeonly buffer WrittenFogCells {
 
 highp float ofFragment(highp float uniformValue) { return uniformValue; } // as in fragment_api.glsl
 #include "shaders/material/surface/fog.glsl"
+
+const int kFogLightVaries = 1; // shader::FogLightTerms
+const int kFogLightIsWeakened = 2;
+const int kFogLightOfFrames = 4;
 
 highp vec3 litPoint; // whose shadows are looked up
 
@@ -50,17 +72,19 @@ highp float shadowOf(ShadowReceiver receiver) {
     return quality_shadowFilter >= kShadowVsm ? shadowOfBlurred(receiver) : shadowOfTent(receiver, 1);
 }
 
-// The mean over a slice, of points that divide it evenly: the edges of shafts cross many slices, and lamps do not.
+// The mean over a slice, of points that divide it evenly: the edges of shafts cross many slices, and lamps do not. One
+// point is enough for a mean over frames.
 const int kSunSamples = 4;
 highp vec3 visibilityOfSun(highp vec3 begin, highp vec3 end) {
     highp vec3 visibility = vec3(1.0);
     if (variant_shadows != 0) {
+        int samples = (quality_fog & kFogLightOfFrames) != 0 ? 1 : kSunSamples;
         visibility = vec3(0.0);
-        for (int i = 0; i < kSunSamples; ++i) {
-            litPoint = mix(begin, end, (float(i) + 0.5) / float(kSunSamples));
+        for (int i = 0; i < samples; ++i) {
+            litPoint = mix(begin, end, (float(i) + 0.5) / float(samples));
             visibility += sunVisibility();
         }
-        visibility /= float(kSunSamples);
+        visibility /= float(samples);
     }
     return visibility;
 }
@@ -88,6 +112,17 @@ highp float phaseTowards(highp vec3 view, highp vec3 toLight) {
     return henyeyGreenstein(dot(view, toLight), frameUniforms.fogScattering.w);
 }
 
+// The share of light that fog lets through between a point and a light, without noise: it evens out along the way.
+highp float shareOnTheWay(highp vec3 point, highp vec3 direction, highp float meters) {
+    highp float share = 1.0;
+    if ((quality_fog & kFogLightIsWeakened) != 0) {
+        highp vec4 medium = frameUniforms.fogMedium;
+        highp float density = medium.x - medium.y * point.y;
+        share = 1.0 - fogOpacity(fogOpticalDepth(density, medium.y, direction.y, 0.0, meters), 1.0);
+    }
+    return share;
+}
+
 // What the lamps add to fog that covers all; view: unit, away from the camera.
 highp vec3 lightOfLamps(highp vec3 view) {
     highp vec3 sum = vec3(0.0);
@@ -102,6 +137,7 @@ highp vec3 lightOfLamps(highp vec3 view) {
             findInRange(list, litPoint, next);
             ListedRay ray = rayOfListed(listed, litPoint);
             highp vec3 light = illuminanceBy(listed, ray) * phaseTowards(view, ray.direction);
+            light *= shareOnTheWay(litPoint, ray.direction, ray.isSun ? kFogInfinity : length(ray.toLight));
             if (ray.attenuation > 0.0) sum += light * visibilityOf(listed, ray);
         }
         if (!isFound || next.place >= list.count) break; // last, as in findInRange()
@@ -114,29 +150,125 @@ uvec2 asHalves(highp vec4 light) {
     return uvec2(packHalf2x16(finite.xy), packHalf2x16(finite.zw));
 }
 
+// A column's ray, from `origin` relative to the camera.
+struct FogColumn {
+    FogRay ray;
+    highp vec3 origin;
+    highp float perDepth; // metres of the ray for each of depth
+    highp vec3 fromSun;   // the light of a full cell in the sun
+};
+
+// at: in columns.
+FogColumn fogColumnAt(highp vec2 at) {
+    highp vec4 background = fogPointOnScreen(at / frameUniforms.fogGrid.xy * 2.0 - 1.0, frameUniforms.exposure.w);
+    FogColumn column;
+    column.ray = fogRayTo(background);
+    bool isParallel = frameUniforms.clipFromView[3].w != 0.0;
+    highp vec3 direction = column.ray.direction;
+    column.origin = isParallel ? background.xyz - direction * dot(background.xyz, direction) : vec3(0.0);
+    column.perDepth = 1.0 / dot(direction, fogForward());
+    column.fromSun = frameUniforms.fogSun.rgb * phaseTowards(direction, frameUniforms.fogSunDirection.xyz);
+    return column;
+}
+
+// Where the ray is between slices.
+highp float fogMetersAt(FogColumn column, highp float slice) {
+    return fogDepthOf(slice, frameUniforms.fogGrid.z, frameUniforms.fogGrid.w) * column.perDepth;
+}
+
+// The mean of the noise between two distances: of points that divide it evenly, each as wide as its part or the column.
+const int kNoiseSamples = 4;
+highp float noiseBetween(FogColumn column, highp float begin, highp float end) {
+    highp float step = (end - begin) / float(kNoiseSamples), sum = 0.0;
+    highp float columnAt1 = 2.0 / (abs(frameUniforms.clipFromView[0][0]) * frameUniforms.fogGrid.x);
+    bool isParallel = frameUniforms.clipFromView[3].w != 0.0;
+    for (int i = 0; i < kNoiseSamples; ++i) {
+        highp float meters = begin + (float(i) + 0.5) * step;
+        highp float width = max(isParallel ? columnAt1 : columnAt1 * meters / column.perDepth, step);
+        highp vec3 place = frameUniforms.fogNoise.xyz + (column.origin + column.ray.direction * meters) * frameUniforms.fogNoise.w;
+        sum += fogNoise(place, frameUniforms.fogVariation.y, width * frameUniforms.fogNoise.w);
+    }
+    return sum / float(kNoiseSamples);
+}
+
+// The light that a full cell of slice i scatters towards the camera, by what is between `begin` and `end`.
+highp vec3 lightOfCell(FogColumn column, highp float begin, highp float end) {
+    highp vec3 direction = column.ray.direction;
+    highp vec3 light = column.fromSun * visibilityOfSun(column.origin + direction * begin, column.origin + direction * end);
+    litPoint = column.origin + direction * (0.5 * (begin + end));
+    light *= shareOnTheWay(litPoint, frameUniforms.fogSunDirection.xyz, kFogInfinity);
+    return light + lightOfLamps(direction);
+}
+
+// Trilinear, of the frame before; w: 0 where that did not see the point.
+highp vec4 lastLightAt(highp vec3 point) {
+    highp vec4 grid = frameUniforms.fogGrid;
+    highp vec4 clip = fogHistory.lastClipFromWorld * vec4(point, 1.0);
+    highp float depth = dot(fogHistory.lastAlongView, vec4(point, 1.0));
+    highp vec3 at = vec3((clip.xy / clip.w * 0.5 + 0.5) * grid.xy, fogSliceAt(depth, grid.z, grid.w));
+    bool isSeen = clip.w > 0.0 && depth > 0.0 && depth < grid.w && at.x >= 0.0 && at.y >= 0.0 && at.x <= grid.x && at.y <= grid.y;
+    at = clamp(at - 0.5, vec3(0.0), grid.xyz - 1.0);
+    highp vec3 corner = floor(at), part = at - corner;
+    highp vec4 sum = vec4(0.0);
+    for (int i = 0; i < 8; ++i) {
+        highp vec3 step = vec3(float(i & 1), float((i >> 1) & 1), float(i >> 2));
+        highp vec3 cell = min(corner + step, grid.xyz - 1.0);
+        highp vec3 shares = vec3(1.0) - abs(part - step);
+        uvec2 halves = lastFogLight.cells[isSeen ? int((cell.y * grid.x + cell.x) * grid.z + cell.z) : 0];
+        highp vec4 light = vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+        sum += light * (shares.x * shares.y * shares.z);
+    }
+    return isSeen ? sum : vec4(0.0);
+}
+
+// The mean over frames: of a point of the cell that moves from frame to frame, and of what the last frame knew.
+highp vec3 lightOverFrames(FogColumn middle, highp vec2 cell, int slice) {
+    // Neighbours differ along the ray: what one frame has too much, surfaces see together with what it has too little.
+    highp float begin = float(slice), inside = fract(fogHistory.place.z + interleavedGradientNoise(cell));
+    FogColumn column = fogColumnAt(cell + fogHistory.place.xy);
+    highp float meters = fogMetersAt(column, begin + inside);
+    highp vec3 light = lightOfCell(column, meters, meters);
+    if (fogHistory.place.w < 1.0) {
+        highp vec4 last = lastLightAt(middle.origin + middle.ray.direction * fogMetersAt(middle, begin + 0.5));
+        highp float share = last.w > 0.5 ? fogHistory.place.w : 1.0;
+        light = mix(last.rgb * fogHistory.exposure.x, light, share);
+    }
+    writtenFogLight.cells[int((cell.y * frameUniforms.fogGrid.x + cell.x) * frameUniforms.fogGrid.z) + slice] =
+            asHalves(vec4(light, 1.0));
+    return light;
+}
+
+// The opacity from the camera to `end`, by that to `begin`, if the density varies.
+highp float opacityBehind(FogColumn column, highp float opacity, highp float begin, highp float end) {
+    highp vec4 medium = frameUniforms.fogMedium;
+    highp float density = medium.x - medium.y * column.ray.height, from = max(begin, medium.z);
+    highp float depth = fogOpticalDepth(density, medium.y, column.ray.direction.y, from, end);
+    if (depth > 0.0) depth *= 1.0 + frameUniforms.fogVariation.x * noiseBetween(column, from, end);
+    return min(opacity + (1.0 - opacity) * fogOpacity(depth, 1.0), frameUniforms.fogLight.w);
+}
+
 void main() {
     highp vec4 grid = frameUniforms.fogGrid;
     highp vec2 cell = vec2(gl_GlobalInvocationID.xy);
     if (cell.x < grid.x && cell.y < grid.y) {
-        highp vec4 background = fogPointOnScreen((cell + 0.5) / grid.xy * 2.0 - 1.0, frameUniforms.exposure.w);
-        FogRay ray = fogRayTo(background);
-        bool isParallel = frameUniforms.clipFromView[3].w != 0.0;
-        highp vec3 origin = isParallel ? background.xyz - ray.direction * dot(background.xyz, ray.direction) : vec3(0.0);
-        highp float perDepth = 1.0 / dot(ray.direction, fogForward());
-        highp vec3 fromSun = frameUniforms.fogSun.rgb * phaseTowards(ray.direction, frameUniforms.fogSunDirection.xyz);
+        FogColumn column = fogColumnAt(cell + 0.5);
         int slices = int(grid.z);
         int border = int((cell.y * grid.x + cell.x) * (grid.z + 1.0));
         highp vec4 sum = vec4(0.0);
         writtenFogCells.borders[border] = asHalves(sum);
         for (int i = 0; i < slices; ++i) {
-            highp float begin = fogDepthOf(float(i), grid.z, grid.w) * perDepth;
-            highp float end = fogDepthOf(float(i + 1), grid.z, grid.w) * perDepth;
-            highp float opacity = fogBetween(ray, frameUniforms.fogMedium.z, end);
+            highp float begin = fogMetersAt(column, float(i)), end = fogMetersAt(column, float(i + 1));
+            highp float opacity = 0.0;
+            if ((quality_fog & kFogLightVaries) != 0) {
+                opacity = opacityBehind(column, sum.w, begin, end);
+            } else {
+                opacity = fogBetween(column.ray, frameUniforms.fogMedium.z, end);
+            }
             highp vec3 light = vec3(0.0);
-            if (opacity > sum.w) {
-                light = fromSun * visibilityOfSun(origin + ray.direction * begin, origin + ray.direction * end);
-                litPoint = origin + ray.direction * (0.5 * (begin + end));
-                light += lightOfLamps(ray.direction);
+            if ((quality_fog & kFogLightOfFrames) != 0) {
+                light = lightOverFrames(column, cell, i);
+            } else if (opacity > sum.w) {
+                light = lightOfCell(column, begin, end);
             }
             sum = vec4(sum.rgb + light * (opacity - sum.w), opacity);
             writtenFogCells.borders[border + 1 + i] = asHalves(sum);

@@ -66,6 +66,9 @@ enum PassBinding : uint8_t {
 
 /// Of kGroupMaterial, for the dispatch that writes FogCells (shaders/compute/fog_light.comp).
 inline constexpr uint8_t kBindingWrittenFogCells = 0;
+inline constexpr uint8_t kBindingFogHistory = 1;        ///< FogHistoryUniforms
+inline constexpr uint8_t kBindingLastFogLight = 2;      ///< storage: as the last frame has left the next one
+inline constexpr uint8_t kBindingWrittenFogLight = 3;   ///< storage: kFogCellBytes a cell, the light of a full one
 
 /// FogCells: the columns of the grid row by row; of each, slices + 1 borders, the nearest first: four half floats,
 /// rgb: pre-exposed light that fog scatters towards the camera before it, w: its opacity up to there.
@@ -100,12 +103,15 @@ struct FrameUniforms {
     float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is
                                  ///< fog
     float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed,
-                                 ///< towards the sun; w: exponent of the cosine. Of volumetric fog: times fogScattering
+                                 ///< towards the sun; w: exponent of the cosine. Of volumetric fog: rgb: times
+                                 ///< fogScattering; w: the share of it that reaches the camera, behind the cells
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
     float4 fogGrid;              ///< of volumetric fog; xy: columns and rows over the image, z: slices, w: metres in
                                  ///< front of the camera where the last one ends; slice i begins at (i / slices)^2 of
                                  ///< these
     float4 fogScattering;        ///< rgb: albedo / (4 pi), w: asymmetry of henyeyGreenstein()
+    float4 fogNoise;             ///< of volumetric fog; xyz: the camera in the lattice of noise, w: cells of it a metre
+    float4 fogVariation;         ///< x: amplitude of the noise, y: octaves; zw: unused
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
                                  ///< them
     float4 skyGround;            ///< of a background that lies on the ground; xyz: the camera, from below the
@@ -310,6 +316,14 @@ enum FogTerms : uint8_t {
     kFogSun = 8,             ///< scatters the light of the sun: in a lobe, FrameUniforms::fogSun.w, or
     kFogScattering = 16,     ///< by its phase function: FrameUniforms::fogScattering
     kFogCells = 32,          ///< light of lamps and of the shadowed sun is in FogCells
+    kFogVaries = kFogCells | kFogSun, ///< the opacity is there, too; volumetric fog has no lobe
+};
+
+/// What the dispatch that writes FogCells computes (shaders/compute/fog_light.comp): kQualityFog of it; a set.
+enum FogLightTerms : uint8_t {
+    kFogLightVaries = 1,       ///< the density, by FrameUniforms::fogNoise
+    kFogLightIsWeakened = 2,   ///< on its way
+    kFogLightOfFrames = 4,     ///< the mean over frames
 };
 
 /// What shaders compute of reflection probes: how many they look at, and whether the environment lights what no probe

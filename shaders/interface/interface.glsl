@@ -44,6 +44,8 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 fogSunDirection;
     vec4 fogGrid;
     vec4 fogScattering;
+    vec4 fogNoise;
+    vec4 fogVariation;
     vec4 contactShadows;
     vec4 skyGround;
     vec4 jitter;

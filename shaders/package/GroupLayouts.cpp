@@ -80,6 +80,9 @@ backend::ProgramLayout fogLightLayout() {
     add(kGroupPass, kBindingShadowMaps, BindingType::SampledTexture);
     add(kGroupPass, kBindingShadows, BindingType::UniformBuffer);
     add(kGroupMaterial, kBindingWrittenFogCells, BindingType::StorageBuffer);
+    add(kGroupMaterial, kBindingFogHistory, BindingType::UniformBuffer);
+    add(kGroupMaterial, kBindingLastFogLight, BindingType::StorageBuffer);
+    add(kGroupMaterial, kBindingWrittenFogLight, BindingType::StorageBuffer);
     return layout;
 }
 

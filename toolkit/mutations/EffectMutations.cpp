@@ -35,6 +35,15 @@ class FogPhaseEdit final : public FrameEdit {
     }
 };
 
+/// In a lattice of noise, by a twentieth of a cell.
+class FogNoiseEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, fogNoise);
+        writeFloat(bytes, at, readFloat(bytes, at) + 0.05f);
+    }
+};
+
 class SkyGroundEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
         Bytes& bytes = copy(command.bytes);
@@ -171,6 +180,22 @@ std::unique_ptr<StreamEdit> makeFinish() {
     return std::make_unique<SwitchEdit>("finish", Constant);
 }
 
+/// Each frame counts half as much in the light of fog that is accumulated over frames.
+class FogWeightEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        constexpr size_t kBlock = 28 * sizeof(float); // a matrix, along the view, place and weight, exposure
+        for (size_t at = 0; at + kBlock <= bytes.size(); at += sizeof(float4)) {
+            const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+            const auto isPlace = [&](size_t i) { return number(i) >= 0 && number(i) < 1; };
+            const float3 along(number(16), number(17), number(18));
+            const bool isAccumulation = std::abs(glm::dot(along, along) - 1) < 1e-3f && isPlace(20) && isPlace(21) &&
+                                        isPlace(22) && number(23) > 0 && number(23) < 1 && number(24) > 0 &&
+                                        number(25) == 0 && number(26) == 0 && number(27) == 0;
+            if (isAccumulation) writeFloat(bytes, at + 23 * sizeof(float), 0.5f * number(23));
+        }
+    }
+};
+
 /// Each frame counts half as much in the image that is accumulated over frames.
 class AccumulationWeightEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
@@ -258,6 +283,8 @@ constexpr Mutation kEffectMutations[] = {
     { "fieldShift", "irradiance fields a quarter of each box beside their places", make<FieldShiftEdit> },
     { "probeShift", "a reflection probe 2 cm beside its place", make<ProbeShiftEdit> },
     { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
+    { "fogWeight", "frames count half as much in the mean of light in fog", make<FogWeightEdit> },
+    { "fogNoise", "the swirls of varying fog a twentieth of their size beside their places", make<FogNoiseEdit> },
 };
 
 } // namespace

@@ -86,6 +86,13 @@ struct Fog {
     float volumetricMeters = 64; ///< where the cells end; beyond, the sun has no shadows and lamps no light; [0.1, 1e5]
     uint8_t volumetricPixels = 16; ///< width of a column, [8, 64]; wider ones where cells would take over 128 MiB
     uint8_t volumetricSlices = 32; ///< the nearest are the thinnest, [8, 128]
+    uint8_t volumetricFrames = 1;  ///< over which the light of a cell is averaged, [1, 64]; 1: each frame has its own
+    bool attenuatesLight = false;  ///< volumetric fog weakens light on its way from lamps and the sun to the fog
+    /// The density of volumetric fog varies from place to place: by noise of mean 0, up to this share of it, [0, 1].
+    float noiseAmplitude = 0;
+    float noiseMeters = 4;    ///< size of the largest swirls, [0.01, 1e4]; 256 of them repeat
+    uint8_t noiseOctaves = 3; ///< each adds swirls half as large and half as dense, [1, 4]
+    float3 noiseWind{ 0 };    ///< moves the swirls with View::timeSeconds, [-1e3, 1e3] m/s
     friend bool operator==(Fog const&, Fog const&) = default;
 };
 

@@ -6,6 +6,7 @@ const int kFogFromRgbm = 4;
 const int kFogSun = 8;
 const int kFogScattering = 16;
 const int kFogCells = 32;
+const int kFogVaries = kFogCells | kFogSun;
 
 // Lit materials have their position. Others need it only here, and derive it from the depth, or from its
 // inverse as it was before the projection, which is as exact with any depth range.
@@ -43,7 +44,7 @@ highp vec4 fogBorder(int border) {
 
 // The light in the fog before the fragment that lamps and the sun send, as the dispatch has summed it up to the borders
 // of slices; w: the opacity up to where it was. Within a slice light grows with opacity, so it is exact where nothing but
-// the fog changes.
+// the fog changes. If the density varies, the opacity is that of the cells: even fog within a slice.
 highp vec4 lightOfFogCells(FogRay ray, highp float opacity) {
     highp vec4 grid = frameUniforms.fogGrid;
     highp float slice = fogSliceAt(ray.meters * dot(ray.direction, fogForward()), grid.z, grid.w);
@@ -60,35 +61,43 @@ highp vec4 lightOfFogCells(FogRay ray, highp float opacity) {
         before += fogBorder(border) * (shares.x * shares.y);
         behind += fogBorder(border + 1) * (shares.x * shares.y);
     }
+    if ((quality_fog & kFogVaries) == kFogVaries) {
+        highp float part = min((slice - nearest) * (slice + nearest) / (2.0 * nearest + 1.0), 1.0);
+        opacity = 1.0 - (1.0 - before.w) * pow((1.0 - behind.w) / max(1.0 - before.w, 1e-6), part);
+    }
     highp float inside = clamp((opacity - before.w) / max(behind.w - before.w, 1e-6), 0.0, 1.0);
     return vec4(mix(before.rgb, behind.rgb, inside), min(behind.w, opacity));
 }
 
-// The light of lamps and of the sun in the fog before the fragment.
-highp vec3 scatteredLight(FogRay ray, highp float opacity) {
-    highp vec4 light = vec4(0.0);
-    if ((quality_fog & kFogCells) != 0) light = lightOfFogCells(ray, opacity);
+// The light of lamps and of the sun in the fog before the fragment. cells: lightOfFogCells().
+highp vec3 scatteredLight(FogRay ray, highp vec4 cells, highp float opacity) {
+    highp vec4 sun = frameUniforms.fogSun;
     highp float phase = henyeyGreenstein(dot(ray.direction, frameUniforms.fogSunDirection.xyz), frameUniforms.fogScattering.w);
-    light.rgb += frameUniforms.fogSun.rgb * (phase * (opacity - light.w)); // beyond the grid the sun has no shadows
-    return ray.meters > frameUniforms.fogMedium.w ? vec3(0.0) : light.rgb;
+    cells.rgb += sun.rgb * (phase * (opacity - cells.w) * sun.w); // beyond the grid the sun has no shadows
+    return ray.meters > frameUniforms.fogMedium.w ? vec3(0.0) : cells.rgb;
 }
 
 // The light of the fog between camera and fragment; w: its opacity.
 highp vec4 fogOfFragment() {
     FogRay ray = fogRayOfFragment();
     highp vec4 sun = frameUniforms.fogSunDirection;
+    bool isGlowing = (quality_fog & kFogVaries) == kFogSun, varies = (quality_fog & kFogVaries) == kFogVaries;
     highp float opacity = 0.0, glowing = 0.0, from = sun.w; // a loop, because the code of the integral is long
-    for (int i = (quality_fog & kFogSun) != 0 ? 0 : 1; i < 2; ++i) {
+    for (int i = isGlowing ? 0 : 1; i < 2; ++i) {
         glowing = opacity;
         if (i == 1) from = frameUniforms.fogMedium.z;
+        if (varies) from = max(from, frameUniforms.fogGrid.w / dot(ray.direction, fogForward())); // behind the cells
         opacity = fogAlong(ray, from);
     }
+    highp vec4 cells = vec4(0.0);
+    if ((quality_fog & kFogCells) != 0) cells = lightOfFogCells(ray, opacity);
+    if (varies) opacity = ray.meters > frameUniforms.fogMedium.w ? 0.0 : min(cells.w + (1.0 - cells.w) * opacity, frameUniforms.fogLight.w);
     highp vec3 light = fogRadiance(ray.direction) * opacity;
-    if ((quality_fog & kFogSun) != 0) {
+    if (isGlowing) {
         highp float glow = fogGlow(dot(ray.direction, sun.xyz), frameUniforms.fogSun.w);
         light += frameUniforms.fogSun.rgb * (glow * glowing);
     }
-    if ((quality_fog & kFogScattering) != 0) light += scatteredLight(ray, opacity);
+    if ((quality_fog & kFogScattering) != 0) light += scatteredLight(ray, cells, opacity);
     return vec4(light, opacity);
 }
 

@@ -169,6 +169,16 @@ std::vector<ViewFactor> factorsOfLight() {
             { "volumetric",
               [](ViewCase& c) {
                   c.view.effects.fog = { .enabled = true, .volumetric = true, .volumetricMeters = 9 };
+              } },
+            { "varying",
+              [](ViewCase& c) {
+                  c.view.effects.fog = { .enabled = true,
+                                         .volumetric = true,
+                                         .volumetricMeters = 9,
+                                         .volumetricFrames = 8,
+                                         .attenuatesLight = true,
+                                         .noiseAmplitude = 0.8f,
+                                         .noiseMeters = 1 };
               } } } },
         { "probe",
           { { "off", [](ViewCase&) {} },

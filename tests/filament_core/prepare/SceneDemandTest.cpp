@@ -113,6 +113,27 @@ TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
     EXPECT_EQ(describe(Effect::Fog, demand()), "switched off: fog=off");
 }
 
+TEST(SceneDemand, NeedsCellsOfFogForWhatHasNoClosedForm) {
+    Fog fog{ .enabled = true, .volumetric = true };
+    ViewCounts counts{ .suns = 1 };
+    const auto demand = [&] {
+        return demandFor({ .counts = counts, .effects = { .fog = fog } }).of(Effect::VolumetricFog);
+    };
+    EXPECT_FALSE(demand().isNeeded);
+    fog.attenuatesLight = true;
+    EXPECT_TRUE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::VolumetricFog, demand()), "it weakens the sun's light on its way");
+    counts.suns = 0;
+    EXPECT_FALSE(demand().isNeeded);
+    fog.noiseAmplitude = 0.1f;
+    EXPECT_EQ(describe(Effect::VolumetricFog, demand()), "its density varies");
+    fog.volumetric = false;
+    EXPECT_EQ(describe(Effect::VolumetricFog, demand()), "switched off: fog.volumetric=off");
+    fog = { .enabled = true, .volumetric = true, .volumetricFrames = 8 };
+    counts.suns = 1;
+    EXPECT_FALSE(demand().isNeeded) << "a closed form needs no mean over frames";
+}
+
 TEST(SceneDemand, NeedsContactShadowsOnlyForLightsThatAskOverSurfacesThatReceive) {
     ViewCounts counts{ .litDraws = 1, .opaqueDraws = 1, .contactLights = 2 };
     const auto demand = [&](Effect effect) { return demandOf(counts).of(effect); };

@@ -103,6 +103,8 @@ TEST_F(Interface, FrameUniformsAgree) {
                           MEMBER(FrameUniforms, fogSunDirection),
                           MEMBER(FrameUniforms, fogGrid),
                           MEMBER(FrameUniforms, fogScattering),
+                          MEMBER(FrameUniforms, fogNoise),
+                          MEMBER(FrameUniforms, fogVariation),
                           MEMBER(FrameUniforms, contactShadows),
                           MEMBER(FrameUniforms, skyGround),
                           MEMBER(FrameUniforms, jitter) });
