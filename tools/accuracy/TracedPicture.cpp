@@ -122,8 +122,8 @@ Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint3
                                                  .occlusionRadius =
                                                          isOccluded ? view.effects.ambientOcclusion.radiusMeters : 0.0,
                                                  .occlusionBends = view.effects.ambientOcclusion.bentNormals };
-    Result<reference::ReferenceImage> image =
-            reference::render(scene, { view.camera, view.size, view.clearColor, view.effects.fog }, settings, jobs);
+    Result<reference::ReferenceImage> image = reference::render(
+            scene, { view.camera, view.size, view.clearColor, view.effects.fog, view.timeSeconds }, settings, jobs);
     if (!image) return image.error();
     return TracedPicture{ { image->width, image->height, std::move(image->color) }, image->statistics.relativeError };
 }

@@ -19,7 +19,8 @@ namespace {
 // Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then six per bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kSource, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22,
-                   kAreaPoint = 1u << 23, kOpenDirections = 1u << 24, kFlights = 1u << 25, kFog = 1u << 26;
+                   kAreaPoint = 1u << 23, kOpenDirections = 1u << 24, kFlights = 1u << 25, kFog = 1u << 26,
+                   kFogOpacity = 1u << 27, kFogToEvent = 1u << 28, kFogToLight = 1u << 29;
 
 constexpr uint32_t kRouletteFrom = 4; // before this event, no path ends by roulette
 constexpr uint32_t kMostFlights = 1u << 16, kScatterRouletteFrom = 8, kPairsOfFlight = 3;
@@ -76,7 +77,7 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     const double distance = first ? path.hit.distance : std::numeric_limits<double>::infinity();
     const double3 light = follow(path, first);
     if (!first && !mScene.skybox()) return light;
-    const double3 seen = mFog.inFront(light, share, ray.direction, distance);
+    const double3 seen = mFog.inFront(light, share, ray.direction, distance, { &numbers, kFogOpacity });
     return mFog.isLit() ? seen + share * scatteredByFog(path, ray, distance) : seen;
 }
 
@@ -116,11 +117,14 @@ Arriving PathTracer::arriving(ReceivingPoint const& point, LampLight lamps, Samp
 double3 PathTracer::scatteredByFog(Path& path, Ray const& camera, double distance) const {
     if (mScene.directLights().empty()) return double3(0.0);
     const double2 choice = path.numbers.pair(kFog);
-    const FogMedium::Event event = mFog.sample(camera.direction, distance, choice.x);
+    const FogMedium::Event event = mFog.sample(camera.direction, distance, choice.x, { &path.numbers, kFogToEvent });
     if (event.opacity <= 0) return double3(0.0);
     const double3 point = camera.origin + camera.direction * event.distance;
     const DirectSample lamp = mScene.directLights().sample(point, choice.y, path.numbers.pair(kFog + 1));
-    const double3 light = lamp.illuminance * mFog.phase(camera.direction, lamp.direction) * (event.opacity * mExposure);
+    const double arrives = mFog.shareOnTheWay(camera.direction * event.distance, lamp.direction, lamp.distance,
+                                              { &path.numbers, kFogToLight });
+    const double3 light =
+            lamp.illuminance * mFog.phase(camera.direction, lamp.direction) * (event.opacity * arrives * mExposure);
     if (light == double3(0.0) || !lamp.castsShadows) return light;
     const bool hasShadows = mSettings.integrator != Integrator::Unoccluded || mSettings.lightsCastShadows;
     if (!hasShadows) return light;

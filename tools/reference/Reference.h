@@ -79,6 +79,7 @@ struct ReferenceView {
     uint2 size{ 640, 360 };
     float4 clearColor{ 0, 0, 0, 1 }; ///< as View::clearColor
     Fog fog{};                       ///< as Effects::fog; FogMedium.h
+    double timeSeconds = 0;          ///< as View::timeSeconds, for its wind
 };
 
 enum class Integrator : uint8_t {

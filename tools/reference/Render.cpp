@@ -94,7 +94,8 @@ FogMedium fogOf(TracedScene const& scene, ReferenceView const& view) {
     const double lux = scene.environmentLux();
     return { view.fog,
              view.camera.position().y,
-             { lux > 0 ? lux * exposure : 1.0, exposure, scene.suns(), &scene.environment() } };
+             { lux > 0 ? lux * exposure : 1.0, exposure, scene.suns(), &scene.environment() },
+             view.camera.position() - double3(view.fog.noiseWind) * view.timeSeconds };
 }
 
 bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

@@ -58,7 +58,10 @@ Result<Job> prepareJob(Options const& options, jobs::JobSystem& jobs) {
 }
 
 ReferenceView viewOf(Options const& options) {
-    return { .camera = tools::cameraOf(options), .size = options.view.size, .fog = options.view.effects.fog };
+    return { .camera = tools::cameraOf(options),
+             .size = options.view.size,
+             .fog = options.view.effects.fog,
+             .timeSeconds = options.view.timeSeconds };
 }
 
 Progress progressOf(Options const& options) {

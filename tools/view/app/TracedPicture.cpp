@@ -100,7 +100,8 @@ void TracedPicture::restart(Document const& document, uint64_t number) {
     mView = mReference.setView({ .camera = document.view.camera,
                                  .size = document.view.size,
                                  .clearColor = document.view.clearColor,
-                                 .fog = document.view.effects.fog },
+                                 .fog = document.view.effects.fog,
+                                 .timeSeconds = document.view.timeSeconds },
                                { .samplesPerPixel = mSamples });
     const std::string untraced = untracedParts(document);
     if (!untraced.empty() && untraced != mLastUntraced) mMessages.push_back(untraced);
