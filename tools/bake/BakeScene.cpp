@@ -4,6 +4,7 @@
 #include "base/Hash.h"
 #include "filament_core/assets/environment/Panorama.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/GltfUri.h"
 #include "toolkit/machine/Machine.h"
 
 #include <glm/trigonometric.hpp>
@@ -37,28 +38,46 @@ Result<reference::ReferenceScene> loadScene(Options const& options, jobs::JobSys
     return scene;
 }
 
-/// Everything that changes a texel, and the build that computes it.
-uint64_t hashOf(Options const& options, BakeScene const& bake, reference::ReferenceScene const& scene) {
-    uint64_t hash = hashString(tools::builtCommit());
-    const auto add = [&hash](auto const& values) { hash = hashBytes(std::as_bytes(std::span(values)), hash); };
-    const auto addNumber = [&hash](double value) { hash = hashBytes(std::as_bytes(std::span(&value, 1)), hash); };
-    add(bake.model.file);
-    for (BakeSurface const& surface : bake.model.surfaces) add(surface.positions), add(surface.indices);
-    for (AtlasSurface const& surface : bake.atlas.surfaces) add(surface.uvs);
+class Hasher {
+public:
+    void add(auto const& values) { mHash = hashBytes(std::as_bytes(std::span(values)), mHash); }
+    void addNumbers(std::initializer_list<double> values) { add(std::vector<double>(values)); }
+    uint64_t hash() const { return mHash; }
+
+private:
+    uint64_t mHash = hashString(tools::builtCommit()); // the build computes the light
+};
+
+/// Everything that changes the light of the scene.
+void addScene(Hasher& hasher, Options const& options, std::span<const std::byte> file,
+              reference::ReferenceScene const& scene) {
+    hasher.add(file);
     for (reference::ReferenceModel const& model : scene.models) {
-        for (assets::Image const& image : model.data->images) add(image.data);
+        for (assets::MeshData const& mesh : model.data->meshes) {
+            for (assets::PrimitiveData const& primitive : mesh.primitives)
+                hasher.add(primitive.vertices), hasher.add(primitive.indices);
+        }
+        for (assets::Image const& image : model.data->images) hasher.add(image.data);
     }
-    if (scene.environment) add(scene.environment->image->pixels);
+    if (scene.environment) hasher.add(scene.environment->image->pixels);
+    hasher.addNumbers(
+            { double(options.light.exposure.factor()), double(options.iblIntensity.value), options.rotationDegrees });
+    if (!options.sun) return;
+    float3 const& direction = options.sun->directionWorld;
+    hasher.addNumbers(
+            { double(options.sun->illuminance.value), double(direction.x), double(direction.y), double(direction.z) });
+}
+
+uint64_t hashOf(Options const& options, BakeScene const& bake, reference::ReferenceScene const& scene) {
+    Hasher hasher;
+    addScene(hasher, options, bake.model.file, scene);
+    for (BakeSurface const& surface : bake.model.surfaces) hasher.add(surface.positions), hasher.add(surface.indices);
+    for (AtlasSurface const& surface : bake.atlas.surfaces) hasher.add(surface.uvs);
     LightSettings const& light = options.light;
-    for (const double value :
-         { double(bake.atlas.side), bake.atlas.texelsPerMeter, double(light.samplesPerTexel), light.relativeError,
-           double(light.directLight), double(light.maxBounces), double(light.seed), double(light.exposure.factor()),
-           double(options.iblIntensity.value), options.rotationDegrees, double(options.heldOutPoints) })
-        addNumber(value);
-    if (!options.sun) return hash;
-    addNumber(double(options.sun->illuminance.value));
-    for (int i = 0; i < 3; ++i) addNumber(double(options.sun->directionWorld[i]));
-    return hash;
+    hasher.addNumbers({ double(bake.atlas.side), bake.atlas.texelsPerMeter, double(light.samplesPerTexel),
+                        light.relativeError, double(light.directLight), double(light.maxBounces), double(light.seed),
+                        double(options.heldOutPoints) });
+    return hasher.hash();
 }
 
 /// Each once.
@@ -71,9 +90,14 @@ void addWarnings(std::vector<std::string>& warnings, std::vector<std::string> co
 } // namespace
 
 Result<reference::TracedScenePtr> traceScene(Options const& options, jobs::JobSystem& jobs,
-                                             std::vector<std::string>& warnings) {
+                                             std::vector<std::string>& warnings, uint64_t& hash) {
     const Result<reference::ReferenceScene> scene = loadScene(options, jobs, warnings);
     if (!scene) return scene.error();
+    const Result<std::vector<std::byte>> file = assets::readGltfFile(options.model);
+    if (!file) return file.error();
+    Hasher hasher;
+    addScene(hasher, options, *file, *scene);
+    hash = hasher.hash();
     Result<reference::TracedScenePtr> traced = reference::prepare(*scene, jobs);
     if (traced) addWarnings(warnings, reference::warnings(**traced));
     return traced;

@@ -25,8 +25,8 @@ struct BakeScene {
 
 Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs);
 
-/// The scene alone, for probes. Adds to `warnings`.
+/// The scene alone, for probes. Adds to `warnings`; `hash`: of all that its light depends on.
 Result<reference::TracedScenePtr> traceScene(Options const& options, jobs::JobSystem& jobs,
-                                             std::vector<std::string>& warnings);
+                                             std::vector<std::string>& warnings, uint64_t& hash);
 
 } // namespace filament_core::bake

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/bake/GridProgram.h"
 
+#include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
 #include "toolkit/json/JsonReader.h"
 #include "toolkit/scenes/BoxFields.h"
+#include "tools/bake/BakeScene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -83,19 +85,27 @@ Result<GridSettings> readGridSettings(std::filesystem::path const& file) {
     return settings;
 }
 
-Result<std::filesystem::path> runGrid(reference::TracedScene const& scene, std::filesystem::path const& file,
-                                      double exposure, std::filesystem::path const& folder, jobs::JobSystem& jobs) {
-    Result<GridSettings> settings = readGridSettings(file);
+Result<GridInput> readGridInput(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings) {
+    Result<GridSettings> settings = readGridSettings(options.grid);
     if (!settings) return settings.error();
-    settings->probes.exposure = exposure;
-    const Result<BakedGrid> baked = bakeIrradianceGrid(scene, *settings, jobs);
-    if (!baked) return baked.error();
-    const std::filesystem::path path = folder / (settings->box.name + ".grid");
-    if (Result<void> done = assets::replaceFile(path, writeIrradianceGrid(baked->grid)); !done) return done.error();
-    if (auto done = tools::writeJson(folder / (settings->box.name + "-report.json"), reportOf(*baked)); !done)
-        return done.error();
-    std::printf("%s: %s", path.c_str(), describe(*baked).c_str());
-    return path;
+    settings->probes.exposure = double(options.light.exposure.factor());
+    if (const Result<void> valid = checkGridSettings(*settings); !valid) return valid.error();
+    const Result<std::vector<std::byte>> file = assets::readFileBytes(options.grid);
+    if (!file) return file.error();
+    GridInput input{ .settings = std::move(*settings) };
+    Result<reference::TracedScenePtr> scene = traceScene(options, jobs, warnings, input.hash);
+    if (!scene) return scene.error();
+    input.scene = std::move(*scene);
+    input.hash = hashBytes(*file, input.hash);
+    return input;
+}
+
+Result<void> writeGrid(BakedGrid const& baked, std::filesystem::path const& folder) {
+    const std::filesystem::path path = folder / (baked.grid.name + ".grid");
+    if (Result<void> done = assets::replaceFile(path, writeIrradianceGrid(baked.grid)); !done) return done;
+    if (auto done = tools::writeJson(folder / (baked.grid.name + "-report.json"), reportOf(baked)); !done) return done;
+    std::printf("%s: %s", path.c_str(), describe(baked).c_str());
+    return {};
 }
 
 } // namespace filament_core::bake

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GridProgram: filament-bake --grid: an irradiance grid as a JSON file describes it.
+/// GridProgram: the files of filament-bake --grid: an irradiance grid as a JSON file describes it.
 ///   Fields  "at", "halfExtent" and "degrees" of the box in metres; "blend"; "name", which names the file, too;
 ///           "spacing" of the first grid in metres; "maxProbes", "maxError", "heldOut", "judged", "paths", "depthSize",
 ///           "maxBounces", "seed", "leakPoints" (GridSettings).
 ///   Out     NAME.grid, NAME-report.json, and the report in lines on standard output.
-///   Thread  any; works on the job system.   Fails: as JsonReader and bakeIrradianceGrid(); errors of the file system.
+///   Thread  any; works on the job system.   Fails: as JsonReader and checkGridSettings(); errors of the file system.
 #pragma once
 
 #include "tools/bake/IrradianceBake.h"
+#include "tools/bake/Options.h"
 
 #include <filesystem>
 
@@ -15,8 +16,14 @@ namespace filament_core::bake {
 
 Result<GridSettings> readGridSettings(std::filesystem::path const& file);
 
-/// `exposure`: ProbeSettings::exposure. Returns the file that was written.
-Result<std::filesystem::path> runGrid(reference::TracedScene const& scene, std::filesystem::path const& file,
-                                      double exposure, std::filesystem::path const& folder, jobs::JobSystem& jobs);
+struct GridInput {
+    GridSettings settings;
+    reference::TracedScenePtr scene;
+    uint64_t hash = 0; ///< of all that the probes depend on
+};
+/// Adds to `warnings`.
+Result<GridInput> readGridInput(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings);
+
+Result<void> writeGrid(BakedGrid const& baked, std::filesystem::path const& folder);
 
 } // namespace filament_core::bake

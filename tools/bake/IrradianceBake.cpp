@@ -3,7 +3,7 @@
 
 #include "base/math/IrradianceSh.h"
 #include "filament_core/scene/SampleGrid.h"
-#include "tools/reference/SampleStream.h"
+#include "tools/bake/GridTrace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,64 +13,7 @@ namespace {
 
 using reference::TracedScene;
 
-constexpr uint64_t kHeldOutStream = uint64_t{ 1 } << 40; // beyond the numbers of probes
-constexpr uint64_t kJudgeStream = uint64_t{ 1 } << 41;
-
 double luminanceOf(float3 color) { return double{ glm::dot(color, float3(0.2126f, 0.7152f, 0.0722f)) }; }
-
-std::optional<Error> faultOfSettings(GridSettings const& settings) {
-    const auto isIn = [](double value, double least, double most) { return value >= least && value <= most; };
-    const auto invalid = [](std::string_view what) {
-        return fail(ErrorCode::InvalidArgument, "irradiance grid: {}", what);
-    };
-    float3 const& half = settings.box.halfExtentMeters;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(half[axis] > 0 && half[axis] <= 1e9f)) return invalid("half a side of its box is not in (0, 1e9] metres");
-    if (!(settings.spacingMeters > 0 && settings.spacingMeters <= 1e6f))
-        return invalid("its spacing is not in (0, 1e6]");
-    if (!isIn(settings.maxProbes, 1, IrradianceProbes::kMaxProbes)) return invalid("maxProbes is not in [1, 2^20]");
-    if (!isIn(settings.maxError, 0, 1e6)) return invalid("maxError is not in [0, 1e6]");
-    if (!isIn(settings.heldOutPoints, 1, 65536)) return invalid("heldOutPoints is not in [1, 65536]");
-    if (!isIn(settings.judgedPoints, 0, 65536)) return invalid("judgedPoints is not in [0, 65536]");
-    if (!isIn(settings.probes.rays, 1, 1u << 24)) return invalid("the paths of a probe are not in [1, 2^24]");
-    if (!isIn(settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize)) return invalid("depthSize is above 32");
-    if (!isIn(settings.probes.depthRays, 1, 65536)) return invalid("depthRays is not in [1, 65536]");
-    if (!isIn(settings.leakPointsPerSide, 0, 16)) return invalid("leakPointsPerSide is not in [0, 16]");
-    return std::nullopt;
-}
-
-uint64_t numberOf(uint3 count) { return uint64_t{ count.x } * count.y * count.z; }
-
-/// As coarse as asked for, or as the budget allows.
-uint3 firstCount(GridSettings const& settings) {
-    uint3 count(2);
-    for (int axis = 0; axis < 3; ++axis) {
-        const float cells = std::ceil(2 * settings.box.halfExtentMeters[axis] / settings.spacingMeters);
-        count[axis] = static_cast<uint32_t>(std::clamp(cells, 1.0f, 65535.0f)) + 1;
-    }
-    while (numberOf(count) > settings.maxProbes) {
-        int longest = 0;
-        for (int axis = 1; axis < 3; ++axis)
-            if (count[axis] > count[longest]) longest = axis;
-        count[longest] = count[longest] / 2;
-    }
-    return count;
-}
-
-/// Halves the longest spacing: the probes of before stay where they are.
-uint3 finerCount(uint3 count, float3 half) {
-    int longest = 0;
-    const auto spacing = [&](int axis) { return half[axis] / static_cast<float>(std::max(count[axis], 2u) - 1); };
-    for (int axis = 1; axis < 3; ++axis)
-        if (spacing(axis) > spacing(longest)) longest = axis;
-    count[longest] = count[longest] == 1 ? 2 : 2 * count[longest] - 1;
-    return count;
-}
-
-struct HeldOut {
-    float3 local{ 0.0f };
-    IrradianceProbe traced{};
-};
 
 /// The luminance of irradiance / pi of surfaces that face along the six directions of the axes.
 std::array<double, 6> facingAxes(scene::IrradianceSh const& light) {
@@ -84,89 +27,45 @@ std::array<double, 6> facingAxes(scene::IrradianceSh const& light) {
     return values;
 }
 
-class GridBaker {
+/// A grid of the traced records.
+class GridJudge {
 public:
-    GridBaker(TracedScene const& scene, GridSettings const& settings, jobs::JobSystem& jobs)
-            : mScene(scene), mSettings(settings), mJobs(jobs) {}
+    GridJudge(TracedScene const& scene, GridSettings const& settings, GridTrace const& trace,
+              std::span<const std::byte> records)
+            : mScene(scene), mSettings(settings), mTrace(trace), mRecords(records), mHeldOut(trace.heldOut(records)) {}
 
-    BakedGrid run() {
-        mHeldOut = traceHeldOut(mSettings.heldOutPoints, kHeldOutStream);
-        uint3 count = firstCount(mSettings);
-        BakedGrid baked = bake(count);
-        uint32_t rounds = 1;
-        while (!baked.report.isWithinBound) {
-            count = finerCount(count, mSettings.box.halfExtentMeters);
-            if (numberOf(count) > mSettings.maxProbes) break;
-            baked = bake(count);
-            ++rounds;
-        }
-        baked.report.rounds = rounds;
-        judgeLast(baked, traceHeldOut(mSettings.judgedPoints, kJudgeStream));
-        baked.report.rays = mRays;
-        if (mSettings.leakPointsPerSide > 0)
-            baked.report.leaks = findLeaks(scene::gridRecord(baked.grid), mSettings.leakPointsPerSide,
-                                           [&](double3 from, double3 to) { return isBlocked(mScene, from, to); });
-        return baked;
-    }
-
-private:
-    double3 inWorld(float3 local) const {
-        return mSettings.box.centerWorld + double3(mSettings.box.worldFromBox * local);
-    }
-
-    std::vector<HeldOut> traceHeldOut(uint32_t count, uint64_t stream) {
-        std::vector<HeldOut> points(count);
-        ProbeSettings settings = mSettings.probes;
-        settings.depthSize = 0;
-        std::vector<uint64_t> rays(points.size());
-        jobs::parallelFor<"held-out points">(mJobs, points.size(), 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                const reference::SampleStream numbers(reference::hashOf(settings.seed, stream),
-                                                      static_cast<uint32_t>(i));
-                const double3 u(numbers.pair(0), numbers.pair(1).x);
-                points[i].local = float3(2.0 * u - 1.0) * mSettings.box.halfExtentMeters;
-                TracedProbe traced = traceProbe(mScene, inWorld(points[i].local), stream + 1 + i,
-                                                mSettings.box.worldFromBox, settings);
-                points[i].traced = traced.probe;
-                rays[i] = traced.rays;
-            }
-        });
-        for (const uint64_t each : rays) mRays += each;
-        return points;
-    }
-
-    BakedGrid bake(uint3 count) {
+    BakedGrid grid(size_t index) {
         const auto probes = std::make_shared<IrradianceProbes>();
-        probes->count = count;
+        probes->count = mTrace.countOf(index);
         probes->depthSize = mSettings.probes.depthSize;
         BakedGrid baked;
-        baked.grid = mSettings.box;
-        baked.grid.probes = probes;
-        scene::GridRecord places;
-        places.halfExtent = mSettings.box.halfExtentMeters;
-        places.probes = probes;
-        ProbeSettings settings = mSettings.probes;
-        settings.farthestMeters = 1.5 * double{ glm::length(scene::spacingOf(places)) };
-        const size_t all = numberOf(count);
-        std::vector<TracedProbe> traced(all);
-        jobs::parallelFor<"irradiance probes">(mJobs, all, 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                const uint3 at(i % count.x, i / count.x % count.y, i / count.x / count.y);
-                traced[i] = traceProbe(mScene, inWorld(scene::placeOf(places, at)), i, mSettings.box.worldFromBox,
-                                       settings);
-            }
-        });
-        for (TracedProbe const& probe : traced) {
+        for (TracedProbe const& probe : mTrace.probesOf(index, mRecords)) {
             probes->probes.push_back(probe.probe);
             probes->depths.insert(probes->depths.end(), probe.depths.begin(), probe.depths.end());
             mRays += probe.rays;
         }
+        baked.grid = mSettings.box;
+        baked.grid.probes = probes;
         // What is compared is what the file holds.
         baked.grid = *readIrradianceGrid(writeIrradianceGrid(baked.grid));
         judge(baked);
         return baked;
     }
 
+    /// The rest of the report, of the last one.
+    void finish(BakedGrid& baked, size_t index) {
+        baked.report.rounds = static_cast<uint32_t>(index + 1);
+        const std::vector<HeldOutProbe> judging = mTrace.judging(mRecords);
+        judgeLast(baked, judging);
+        baked.report.rays = mRays;
+        for (HeldOutProbe const& point : mHeldOut) baked.report.rays += point.rays;
+        for (HeldOutProbe const& point : judging) baked.report.rays += point.rays;
+        if (mSettings.leakPointsPerSide > 0)
+            baked.report.leaks = findLeaks(scene::gridRecord(baked.grid), mSettings.leakPointsPerSide,
+                                           [&](double3 from, double3 to) { return isBlocked(mScene, from, to); });
+    }
+
+private:
     void judge(BakedGrid& baked) const {
         GridReport& report = baked.report;
         double squares = 0, mean = 0;
@@ -187,7 +86,7 @@ private:
     /// Along the six directions of the axes: what surfaces that face them would have.
     void compareHeldOut(scene::GridRecord const& grid, double noiseOfProbes, GridReport& report) const {
         double differences = 0, values = 0, noise = 0;
-        for (HeldOut const& point : mHeldOut) {
+        for (HeldOutProbe const& point : mHeldOut) {
             if (point.traced.isInside) continue;
             ++report.heldOutPoints;
             const auto [traced, given] = lightsAt(grid, point);
@@ -205,19 +104,19 @@ private:
     struct Lights {
         std::array<double, 6> traced{}, given{};
     };
-    static Lights lightsAt(scene::GridRecord const& grid, HeldOut const& point) {
+    static Lights lightsAt(scene::GridRecord const& grid, HeldOutProbe const& point) {
         // the grid's light is along the axes of the world
         return { facingAxes(rotateIrradianceSh(point.traced.irradianceSh, grid.worldFromBox)),
                  facingAxes(scene::sampleGrid(grid, point.local).light) };
     }
 
-    static void judgeLast(BakedGrid& baked, std::vector<HeldOut> const& points) {
+    static void judgeLast(BakedGrid& baked, std::vector<HeldOutProbe> const& points) {
         const scene::GridRecord grid = scene::gridRecord(baked.grid);
         const double noise = 2 * baked.report.standardError * baked.report.mean;
         GridJudgement& judgement = baked.report.judgement;
         std::vector<double> beyond;
         double squares = 0;
-        for (HeldOut const& point : points) {
+        for (HeldOutProbe const& point : points) {
             if (point.traced.isInside) {
                 ++judgement.inside;
                 continue;
@@ -240,16 +139,62 @@ private:
 
     TracedScene const& mScene;
     GridSettings const& mSettings;
-    jobs::JobSystem& mJobs;
-    std::vector<HeldOut> mHeldOut;
+    GridTrace const& mTrace;
+    std::span<const std::byte> mRecords;
+    std::vector<HeldOutProbe> mHeldOut;
     uint64_t mRays = 0;
 };
 
 } // namespace
 
+Result<void> checkGridSettings(GridSettings const& settings) {
+    const auto isIn = [](double value, double least, double most) { return value >= least && value <= most; };
+    const auto invalid = [](std::string_view what) -> Result<void> {
+        return fail(ErrorCode::InvalidArgument, "irradiance grid: {}", what);
+    };
+    float3 const& half = settings.box.halfExtentMeters;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(half[axis] > 0 && half[axis] <= 1e9f)) return invalid("half a side of its box is not in (0, 1e9] metres");
+    if (!(settings.spacingMeters > 0 && settings.spacingMeters <= 1e6f))
+        return invalid("its spacing is not in (0, 1e6]");
+    if (!isIn(settings.maxProbes, 1, IrradianceProbes::kMaxProbes)) return invalid("maxProbes is not in [1, 2^20]");
+    if (!isIn(settings.maxError, 0, 1e6)) return invalid("maxError is not in [0, 1e6]");
+    if (!isIn(settings.heldOutPoints, 1, 65536)) return invalid("heldOutPoints is not in [1, 65536]");
+    if (!isIn(settings.judgedPoints, 0, 65536)) return invalid("judgedPoints is not in [0, 65536]");
+    if (!isIn(settings.probes.rays, 1, 1u << 24)) return invalid("the paths of a probe are not in [1, 2^24]");
+    if (!isIn(settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize)) return invalid("depthSize is above 32");
+    if (!isIn(settings.probes.depthRays, 1, 65536)) return invalid("depthRays is not in [1, 65536]");
+    if (!isIn(settings.leakPointsPerSide, 0, 16)) return invalid("leakPointsPerSide is not in [0, 16]");
+    return {};
+}
+
 Result<BakedGrid> bakeIrradianceGrid(TracedScene const& scene, GridSettings const& settings, jobs::JobSystem& jobs) {
-    if (auto fault = faultOfSettings(settings)) return *std::move(fault);
-    return GridBaker(scene, settings, jobs).run();
+    if (const Result<void> valid = checkGridSettings(settings); !valid) return valid.error();
+    const GridTrace trace(scene, settings);
+    std::vector<std::byte> records;
+    for (size_t grid = 0;; ++grid) {
+        trace.trace(records.size() / trace.recordBytes(), trace.endOfGrid(grid), jobs,
+                    [&](std::span<const std::byte> batch) {
+                        records.insert(records.end(), batch.begin(), batch.end());
+                        return true;
+                    });
+        if (std::optional<BakedGrid> baked = gridOfRecords(scene, settings, records)) return *std::move(baked);
+    }
+}
+
+std::optional<BakedGrid> gridOfRecords(TracedScene const& scene, GridSettings const& settings,
+                                       std::span<const std::byte> records) {
+    const GridTrace trace(scene, settings);
+    const size_t count = records.size() / trace.recordBytes();
+    if (count < trace.endOfGrid(0)) return std::nullopt;
+    GridJudge judge(scene, settings, trace, records);
+    for (size_t grid = 0; grid < trace.grids() && count >= trace.endOfGrid(grid); ++grid) {
+        BakedGrid baked = judge.grid(grid);
+        if (!baked.report.isWithinBound && grid + 1 < trace.grids()) continue;
+        judge.finish(baked, grid);
+        return baked;
+    }
+    return std::nullopt;
 }
 
 std::string describe(BakedGrid const& baked) {

@@ -18,6 +18,8 @@
 
 #include <filament_core/IrradianceGrid.h>
 
+#include <optional>
+#include <span>
 #include <string>
 
 namespace filament_core::bake {
@@ -67,6 +69,14 @@ struct BakedGrid {
 
 Result<BakedGrid> bakeIrradianceGrid(reference::TracedScene const& scene, GridSettings const& settings,
                                      jobs::JobSystem& jobs);
+
+/// The error of settings outside of their ranges.
+Result<void> checkGridSettings(GridSettings const& settings);
+
+/// The grid that bakeIrradianceGrid() makes, of the records that GridTrace traces: those of the first grids suffice if
+/// one of them is within the bound. Nothing: more are needed. `settings` are valid.
+std::optional<BakedGrid> gridOfRecords(reference::TracedScene const& scene, GridSettings const& settings,
+                                       std::span<const std::byte> records);
 
 /// In a few lines.
 std::string describe(BakedGrid const& baked);

@@ -13,19 +13,17 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "journals are little-endian");
 
-constexpr uint64_t kMagic = 0x314B4142'4C4946ull; // "FILBAK1"
+constexpr uint64_t kMagic = 0x324B4142'4C4946ull; // "FILBAK2"
 
 struct FileHeader {
-    uint64_t magic, bake, first, count;
+    uint64_t magic, bake, first, count, recordBytes;
 };
 struct Block {
     uint64_t count, hash;
 };
-static_assert(sizeof(TexelLight) == 72 && std::is_trivially_copyable_v<TexelLight>);
 
-uint64_t hashOfLights(std::span<const TexelLight> lights, uint64_t at) {
-    return hashBytes(std::as_bytes(lights), at + 1);
-}
+/// `at`: the number of its first record.
+uint64_t hashOfBlock(std::span<const std::byte> records, uint64_t at) { return hashBytes(records, at + 1); }
 
 Error foreign(std::filesystem::path const& file, const char* what) {
     return fail(ErrorCode::Corrupt, "{}: {}; delete it, or give another --out", file.string(), what);
@@ -34,28 +32,27 @@ Error foreign(std::filesystem::path const& file, const char* what) {
 Result<JournalPart> parse(std::filesystem::path const& file, std::span<const std::byte> bytes) {
     FileHeader header{};
     if (bytes.size() >= sizeof(header)) std::memcpy(&header, bytes.data(), sizeof(header));
-    if (header.magic != kMagic) return foreign(file, "is no part of a bake");
-    JournalPart part{ { header.bake, { header.first, header.count } }, {}, sizeof(header) };
+    if (header.magic != kMagic || header.recordBytes == 0) return foreign(file, "is no part of a bake");
+    JournalPart part{ { header.bake, { header.first, header.count }, header.recordBytes }, {}, sizeof(header) };
     while (bytes.size() - part.bytes >= sizeof(Block)) {
         Block block{};
         std::memcpy(&block, &bytes[part.bytes], sizeof(block));
         const uint64_t left = bytes.size() - part.bytes - sizeof(Block);
-        if (block.count == 0 || block.count > left / sizeof(TexelLight)) break;
-        if (block.count > header.count - part.lights.size()) break;
-        std::vector<TexelLight> lights(block.count);
-        std::memcpy(lights.data(), &bytes[part.bytes + sizeof(Block)], block.count * sizeof(TexelLight));
-        if (hashOfLights(lights, part.lights.size()) != block.hash) break;
-        part.lights.insert(part.lights.end(), lights.begin(), lights.end());
-        part.bytes += sizeof(Block) + block.count * sizeof(TexelLight);
+        if (block.count == 0 || block.count > left / header.recordBytes) break;
+        if (block.count > header.count - part.count()) break;
+        const auto records = bytes.subspan(part.bytes + sizeof(Block), block.count * header.recordBytes);
+        if (hashOfBlock(records, part.count()) != block.hash) break;
+        part.records.insert(part.records.end(), records.begin(), records.end());
+        part.bytes += sizeof(Block) + records.size();
     }
     return part;
 }
 
 } // namespace
 
-TexelRange rangeOfPart(uint64_t texels, uint32_t index, uint32_t count) {
-    const uint64_t first = texels * index / count;
-    return { first, texels * (index + 1) / count - first };
+RecordRange rangeOfPart(uint64_t records, uint32_t index, uint32_t count) {
+    const uint64_t first = records * index / count;
+    return { first, records * (index + 1) / count - first };
 }
 
 Result<JournalPart> readJournal(std::filesystem::path const& path) {
@@ -73,58 +70,55 @@ Result<Journal> Journal::open(std::filesystem::path const& file, JournalHeader c
     if (std::filesystem::exists(file, ignored)) {
         Result<JournalPart> part = readJournal(file);
         if (!part) return part.error();
-        if (part->header.bake != header.bake || part->header.range != header.range)
-            return foreign(file, "belongs to a bake with other settings");
-        journal.mLights = std::move(part->lights);
+        if (part->header != header) return foreign(file, "belongs to a bake with other settings");
+        journal.mRecords = std::move(part->records);
         std::error_code error;
         std::filesystem::resize_file(file, part->bytes, error);
         if (error) return fail(ErrorCode::Unreadable, "{}: cannot be continued: {}", file.string(), error.message());
-        journal.mStream.open(file, std::ios::binary | std::ios::app);
     } else {
-        journal.mStream.open(file, std::ios::binary);
-        const FileHeader words{ kMagic, header.bake, header.range.first, header.range.count };
-        journal.mStream.write(reinterpret_cast<const char*>(&words), sizeof(words));
-        journal.mStream.flush();
+        // At once: a run that is killed now leaves no file without a header, which could not be continued.
+        const FileHeader words{ kMagic, header.bake, header.range.first, header.range.count, header.recordBytes };
+        if (auto done = assets::replaceFile(file, std::as_bytes(std::span(&words, 1))); !done) return done.error();
     }
+    journal.mStream.open(file, std::ios::binary | std::ios::app);
     if (!journal.mStream) return fail(ErrorCode::Unreadable, "{}: cannot be written", file.string());
     return journal;
 }
 
-Result<void> Journal::append(std::span<const TexelLight> lights) {
-    const Block block{ lights.size(), hashOfLights(lights, mLights.size()) };
+Result<void> Journal::append(std::span<const std::byte> records) {
+    const Block block{ records.size() / mHeader.recordBytes, hashOfBlock(records, count()) };
     mStream.write(reinterpret_cast<const char*>(&block), sizeof(block));
-    mStream.write(reinterpret_cast<const char*>(lights.data()),
-                  static_cast<std::streamsize>(lights.size() * sizeof(TexelLight)));
+    mStream.write(reinterpret_cast<const char*>(records.data()), static_cast<std::streamsize>(records.size()));
     mStream.flush();
     if (!mStream) return fail(ErrorCode::Unreadable, "{}: cannot be written; is the disk full?", mFile.string());
-    mLights.insert(mLights.end(), lights.begin(), lights.end());
+    mRecords.insert(mRecords.end(), records.begin(), records.end());
     return {};
 }
 
-Result<std::vector<TexelLight>> mergeJournals(std::span<const std::filesystem::path> files, uint64_t bake,
-                                              uint64_t texels) {
+Result<std::vector<std::byte>> mergeJournals(std::span<const std::filesystem::path> files, JournalHeader const& whole) {
     std::vector<JournalPart> parts;
     for (std::filesystem::path const& file : files) {
         Result<JournalPart> part = readJournal(file);
         if (!part) return part.error();
-        if (part->header.bake != bake)
+        if (part->header.bake != whole.bake || part->header.recordBytes != whole.recordBytes)
             return fail(ErrorCode::InvalidArgument,
                         "{}: was baked with another model or other options; give those of the parts", file.string());
-        if (part->lights.size() != part->header.range.count)
+        if (part->count() != part->header.range.count)
             return fail(ErrorCode::InvalidArgument, "{}: is not finished; run its --shard again", file.string());
         parts.push_back(std::move(*part));
     }
     std::ranges::sort(parts, {}, [](JournalPart const& part) { return part.header.range.first; });
-    std::vector<TexelLight> lights;
+    std::vector<std::byte> records;
     for (JournalPart const& part : parts) {
-        if (part.header.range.first != lights.size())
-            return fail(ErrorCode::InvalidArgument, "parts {} between texels {} and {}",
-                        part.header.range.first > lights.size() ? "are missing" : "overlap", lights.size(),
-                        part.header.range.first);
-        lights.insert(lights.end(), part.lights.begin(), part.lights.end());
+        const uint64_t count = records.size() / whole.recordBytes;
+        if (part.header.range.first != count)
+            return fail(ErrorCode::InvalidArgument, "parts {} between points {} and {}",
+                        part.header.range.first > count ? "are missing" : "overlap", count, part.header.range.first);
+        records.insert(records.end(), part.records.begin(), part.records.end());
     }
-    if (lights.size() == texels) return lights;
-    return fail(ErrorCode::InvalidArgument, "parts from texel {} on are missing", lights.size());
+    const uint64_t count = records.size() / whole.recordBytes;
+    if (count == whole.range.count) return records;
+    return fail(ErrorCode::InvalidArgument, "parts from point {} on are missing", count);
 }
 
 } // namespace filament_core::bake

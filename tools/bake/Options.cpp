@@ -40,7 +40,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--grid", options.grid, "a JSON file: bake the irradiance grid that it describes instead of a lightmap")
             .typeName("FILE");
     app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
-    app.option("--merge", words.merge, "do not trace: write the lightmap of parts, files or folders of them")
+    app.option("--merge", words.merge,
+               "do not trace: write the lightmap or the grid of parts, files or folders of them")
             .typeName("FILE...");
     app.option("--out", options.out, "folder for what is written (out)");
     app.option("--threads", words.threads, "number of tracing threads (one per core)");
@@ -112,8 +113,6 @@ Result<void> convertLight(Words const& words, Options& options) {
 
 Result<void> convertRun(Words const& words, Options& options) {
     options.merge.assign(words.merge.begin(), words.merge.end());
-    if (!options.grid.empty() && (!words.shard.empty() || !options.merge.empty()))
-        return fail(ErrorCode::InvalidArgument, "--grid bakes in one run; leave out --shard and --merge");
     if (!words.shard.empty()) {
         if (!options.merge.empty())
             return fail(ErrorCode::InvalidArgument, "--merge traces nothing; give --shard without it");

@@ -7,6 +7,7 @@
 #include "toolkit/program/Program.h"
 #include "tools/bake/BakeScene.h"
 #include "tools/bake/GridProgram.h"
+#include "tools/bake/GridTrace.h"
 #include "tools/bake/Journal.h"
 #include "tools/bake/Report.h"
 #include "tools/reference/TracedScene.h"
@@ -32,33 +33,62 @@ std::vector<AtlasTexel> heldOutTexels(BakeScene const& bake, size_t first, size_
     return points;
 }
 
-/// Bakes a range of the texels and held-out points into its journal. Empty: interrupted.
-Result<std::optional<Journal>> bakeRange(Options const& options, BakeScene const& bake, TexelRange range,
-                                         jobs::JobSystem& jobs) {
-    Result<Journal> journal = Journal::open(options.out / kJournalName, { bake.hash, range });
+/// Appends to a journal, with a line of progress.
+class Recorder {
+public:
+    Recorder(Journal& journal, uint64_t total)
+            : mJournal(journal), mTotal(total), mBefore(journal.count()), mBegin(std::chrono::steady_clock::now()) {}
+    ~Recorder() { tools::clearProgress(); }
+    Recorder(Recorder const&) = delete;
+    Recorder& operator=(Recorder const&) = delete;
+
+    /// False: stop.
+    bool operator()(std::span<const std::byte> records) {
+        mWritten = mJournal.append(records);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - mBegin).count();
+        tools::showProgress(progressLine(mJournal.count(), mTotal, mBefore, seconds));
+        return goesOn();
+    }
+    bool goesOn() const { return mWritten.ok() && !tools::isInterrupted(); }
+    Result<void> const& written() const { return mWritten; }
+
+private:
+    Journal& mJournal;
+    uint64_t mTotal, mBefore;
+    std::chrono::steady_clock::time_point mBegin;
+    Result<void> mWritten;
+};
+
+/// Bakes a range of the texels and held-out points into its journal, which is complete then, or was interrupted.
+Result<Journal> bakeRange(Options const& options, BakeScene const& bake, RecordRange range, jobs::JobSystem& jobs) {
+    Result<Journal> journal = Journal::open(options.out / kJournalName, { bake.hash, range, sizeof(TexelLight) });
     if (!journal) return journal.error();
-    const uint64_t before = journal->lights().size();
-    const auto begin = std::chrono::steady_clock::now();
-    Result<void> written;
-    const auto finished = [&](size_t, std::span<const TexelLight> lights) {
-        written = journal->append(lights);
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        tools::showProgress(progressLine(journal->lights().size(), range.count, before, seconds));
-        return written.ok() && !tools::isInterrupted();
-    };
-    const size_t first = range.first + before, last = range.first + range.count, texels = bake.texels.size();
-    if (first < texels)
+    Recorder recorder(*journal, range.count);
+    const auto finished = [&](size_t, std::span<const TexelLight> lights) { return recorder(std::as_bytes(lights)); };
+    const size_t first = range.first + journal->count(), last = range.first + range.count, texels = bake.texels.size();
+    if (first < texels && first < last)
         bakeTexels(*bake.scene, bake.model.surfaces, bake.atlas,
                    std::span(bake.texels).subspan(first, std::min(last, texels) - first), options.light, jobs,
                    finished);
-    const size_t from = range.first + journal->lights().size();
-    if (written && !tools::isInterrupted() && from < last)
+    const size_t from = range.first + journal->count();
+    if (recorder.goesOn() && from < last)
         bakeTexels(*bake.scene, bake.model.surfaces, bake.atlas, heldOutTexels(bake, from, last),
                    heldOutSettings(options.light), jobs, finished);
-    tools::clearProgress();
-    if (!written) return written.error();
-    if (!journal->isComplete()) return std::optional<Journal>{};
-    return std::optional(std::move(*journal));
+    if (!recorder.written()) return recorder.written().error();
+    return journal;
+}
+
+int interrupted(Options const& options) {
+    tools::printWarning(
+            fmt::format("interrupted; the same command continues from {}", (options.out / kJournalName).string()));
+    return tools::kInterruptedStatus;
+}
+
+int finishedPart(Options const& options, RecordRange range, size_t all) {
+    std::printf("%s: points %llu to %llu of %zu\n", (options.out / kJournalName).c_str(),
+                static_cast<unsigned long long>(range.first),
+                static_cast<unsigned long long>(range.first + range.count), all);
+    return 0;
 }
 
 int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights) {
@@ -79,13 +109,72 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     return 0;
 }
 
-int writeGrid(Options const& options, jobs::JobSystem& jobs) {
+int bakeLightmap(Options const& options, jobs::JobSystem& jobs) {
+    tools::showProgress("cutting surfaces into charts");
+    const Result<BakeScene> bake = prepareBake(options, jobs);
+    tools::clearProgress();
+    if (!bake) return failed(bake.error());
+    const size_t all = bake->traced();
+    if (!options.merge.empty()) {
+        const auto records = mergeJournals(options.merge, { bake->hash, { 0, all }, sizeof(TexelLight) });
+        return records ? writeLightmap(options, *bake, valuesOf<TexelLight>(*records)) : failed(records.error());
+    }
+    const tools::StopOnInterrupt scope;
+    const tools::Shard shard = options.shard.value_or(tools::Shard{});
+    const RecordRange range = rangeOfPart(all, shard.index, shard.count);
+    const Result<Journal> journal = bakeRange(options, *bake, range, jobs);
+    if (!journal) return failed(journal.error());
+    if (!journal->isComplete()) return interrupted(options);
+    if (options.shard) return finishedPart(options, range, all);
+    const int status = writeLightmap(options, *bake, valuesOf<TexelLight>(journal->records()));
+    std::error_code ignored;
+    if (status == 0) std::filesystem::remove(options.out / kJournalName, ignored);
+    return status;
+}
+
+/// Of a grid: a part, or all up to the first grid within the bound, which is written.
+int traceGrid(Options const& options, GridInput const& input, jobs::JobSystem& jobs) {
+    const GridTrace trace(*input.scene, input.settings);
+    const tools::Shard shard = options.shard.value_or(tools::Shard{});
+    const RecordRange range = rangeOfPart(trace.size(), shard.index, shard.count);
+    Result<Journal> journal = Journal::open(options.out / kJournalName, { input.hash, range, trace.recordBytes() });
+    if (!journal) return failed(journal.error());
+    std::optional<BakedGrid> baked;
+    {
+        Recorder recorder(*journal, range.count);
+        const auto goOn = [&](size_t last) {
+            trace.trace(range.first + journal->count(), last, jobs,
+                        [&](std::span<const std::byte> records) { return recorder(records); });
+        };
+        if (options.shard) goOn(range.first + range.count);
+        for (size_t grid = 0; !options.shard && !baked && recorder.goesOn(); ++grid) {
+            goOn(trace.endOfGrid(grid));
+            if (recorder.goesOn()) baked = gridOfRecords(*input.scene, input.settings, journal->records());
+        }
+        if (!recorder.written()) return failed(recorder.written().error());
+    }
+    if (options.shard) return journal->isComplete() ? finishedPart(options, range, trace.size()) : interrupted(options);
+    if (!baked) return interrupted(options);
+    const Result<void> written = writeGrid(*baked, options.out);
+    if (!written) return failed(written.error());
+    std::error_code ignored;
+    std::filesystem::remove(options.out / kJournalName, ignored);
+    return 0;
+}
+
+int bakeGrid(Options const& options, jobs::JobSystem& jobs) {
     std::vector<std::string> warnings;
-    const Result<reference::TracedScenePtr> scene = traceScene(options, jobs, warnings);
-    if (!scene) return failed(scene.error());
+    const Result<GridInput> input = readGridInput(options, jobs, warnings);
+    if (!input) return failed(input.error());
     for (std::string const& warning : warnings) tools::printWarning(warning);
-    tools::showProgress("baking probes until held-out points agree");
-    const auto written = runGrid(**scene, options.grid, double(options.light.exposure.factor()), options.out, jobs);
+    if (options.merge.empty()) {
+        const tools::StopOnInterrupt scope;
+        return traceGrid(options, *input, jobs);
+    }
+    const GridTrace trace(*input->scene, input->settings);
+    const auto records = mergeJournals(options.merge, { input->hash, { 0, trace.size() }, trace.recordBytes() });
+    if (!records) return failed(records.error());
+    const Result<void> written = writeGrid(*gridOfRecords(*input->scene, input->settings, *records), options.out);
     return written ? 0 : failed(written.error());
 }
 
@@ -95,33 +184,7 @@ int run(Options const& options) {
     if (error)
         return failed(fail(ErrorCode::Unreadable, "{}: {}; give another --out", options.out.string(), error.message()));
     jobs::JobSystem jobs({ .workers = options.workers });
-    if (!options.grid.empty()) return writeGrid(options, jobs);
-    tools::showProgress("cutting surfaces into charts");
-    const Result<BakeScene> bake = prepareBake(options, jobs);
-    tools::clearProgress();
-    if (!bake) return failed(bake.error());
-    if (!options.merge.empty()) {
-        const Result<std::vector<TexelLight>> lights = mergeJournals(options.merge, bake->hash, bake->traced());
-        return lights ? writeLightmap(options, *bake, *lights) : failed(lights.error());
-    }
-    const tools::StopOnInterrupt scope;
-    const tools::Shard shard = options.shard.value_or(tools::Shard{});
-    const TexelRange range = rangeOfPart(bake->traced(), shard.index, shard.count);
-    const Result<std::optional<Journal>> journal = bakeRange(options, *bake, range, jobs);
-    if (!journal) return failed(journal.error());
-    const std::filesystem::path part = options.out / kJournalName;
-    if (!*journal) {
-        tools::printWarning(fmt::format("interrupted; the same command continues from {}", part.string()));
-        return tools::kInterruptedStatus;
-    }
-    if (options.shard) {
-        std::printf("%s: points %llu to %llu of %zu\n", part.c_str(), static_cast<unsigned long long>(range.first),
-                    static_cast<unsigned long long>(range.first + range.count), bake->traced());
-        return 0;
-    }
-    const int status = writeLightmap(options, *bake, (*journal)->lights());
-    if (status == 0) std::filesystem::remove(part, error);
-    return status;
+    return options.grid.empty() ? bakeLightmap(options, jobs) : bakeGrid(options, jobs);
 }
 
 } // namespace
