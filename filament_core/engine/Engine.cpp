@@ -138,6 +138,7 @@ Engine::Impl::~Impl() {
     reportLeaks(indirectLights, "indirect light");
     reportLeaks(skyboxes, "skybox");
     reportLeaks(lightProfiles, "light profile");
+    reportLeaks(lightImages, "light image");
     reportLeaks(instances, "material instance");
     reportLeaks(materials, "material");
     reportLeaks(morphTargets, "morph targets");

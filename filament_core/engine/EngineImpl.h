@@ -93,6 +93,13 @@ struct LightProfileState {
     std::string name;
 };
 
+struct LightImageState {
+    std::shared_ptr<const std::vector<uint32_t>> words; ///< see shader::kImageHeaderWords; lights share them
+    float aspect = 1;                                   ///< height over width
+    LightImageDescription description{};
+    std::string name;
+};
+
 struct RenderTargetState {
     Texture color, depth; ///< depth: optional. The app may have destroyed them: HandleTable::held()
     bool generateMips = false;
@@ -212,6 +219,7 @@ struct Engine::Impl {
     void destroy(IndirectLight light) { removeNow(indirectLights, light); }
     void destroy(Skybox skybox) { removeNow(skyboxes, skybox); }
     void destroy(LightProfile profile) { removeNow(lightProfiles, profile); }
+    void destroy(LightImage image) { removeNow(lightImages, image); }
     void destroy(RenderTarget target) { removeNow(renderTargets, target); }
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
@@ -292,6 +300,8 @@ struct Engine::Impl {
     engine::HandleTable<IndirectLightObject, engine::IndirectLightState> indirectLights{ owner };
     engine::HandleTable<SkyboxObject, engine::SkyboxState> skyboxes{ owner };
     engine::HandleTable<LightProfileObject, engine::LightProfileState> lightProfiles{ owner };
+    engine::HandleTable<LightImageObject, engine::LightImageState> lightImages{ owner };
+    uint32_t lastLightImage = 0; ///< its number: shader::kImageHeaderWords
     engine::HandleTable<RenderTargetObject, engine::RenderTargetState> renderTargets{ owner };
     engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains{ owner };
 

@@ -54,6 +54,45 @@ void setProfile(Engine::Impl const& engine, LightProfile profile, float3 up, Lig
     record.profile = engine.lightProfiles.get(profile).words;
 }
 
+/// To a record that has a direction.
+void setImage(Engine::Impl const& engine, LightImage image, float3 up, LightRecord& record) {
+    record.sideWorld = glm::cross(record.directionWorld, acrossDirection(record.directionWorld, up));
+    record.image = engine.lightImages.get(image).words;
+}
+
+LightImageShape shapeOf(Engine::Impl const& engine, LightImage image) {
+    return engine.lightImages.get(image).description.shape;
+}
+
+/// The shorter side of the image touches the outer cone.
+void setCookie(Engine::Impl const& engine, SpotLight const& light, LightRecord& record) {
+    FILAMENT_ASSERT(shapeOf(engine, light.cookie) == LightImageShape::Projected, "the cookie of a spot is projected");
+    constexpr float kWidestImage = 1.3962634f; // 80 degrees
+    setImage(engine, light.cookie, light.upWorld, record);
+    const float width = 2 * elementary::tan(std::min(light.outerConeRadians, kWidestImage));
+    const float aspect = engine.lightImages.get(light.cookie).aspect;
+    record.imageScale = float2(1 / (width * std::max(1 / aspect, 1.0f)), 1 / (width * std::max(aspect, 1.0f)));
+}
+
+void setCookie(Engine::Impl const& engine, PointLight const& light, LightRecord& record) {
+    const LightImageShape shape = shapeOf(engine, light.cookie);
+    FILAMENT_ASSERT(shape == LightImageShape::Octahedron || shape == LightImageShape::Cube,
+                    "the cookie of a point light is an octahedron or a cube");
+    setImage(engine, light.cookie, light.upWorld, record);
+}
+
+void setCookie(Engine::Impl const& engine, SunLight const& light, LightRecord& record) {
+    FILAMENT_ASSERT(shapeOf(engine, light.cookie) == LightImageShape::Tiled, "the cookie of a sun is tiled");
+    FILAMENT_ASSERT(light.cookieMeters > 1e-6f && light.cookieMeters < 1e12f,
+                    "the cookie of a sun is between 1e-6 and 1e12 metres wide");
+    FILAMENT_ASSERT(std::isfinite(light.cookieOffsetMeters.x) && std::isfinite(light.cookieOffsetMeters.y),
+                    "the offset of a sun's cookie is finite");
+    setImage(engine, light.cookie, light.upWorld, record);
+    const float height = light.cookieMeters * engine.lightImages.get(light.cookie).aspect;
+    record.imageScale = float2(1 / light.cookieMeters, 1 / height);
+    record.imageOffset = -light.cookieOffsetMeters * record.imageScale;
+}
+
 /// The common part of area lights; the record lacks its shape.
 template <class AreaLight>
 LightRecord areaRecord(LightRecord::Type type, AreaLight const& light) {
@@ -82,20 +121,22 @@ void setExtent(LightRecord& record, float2 halfExtent) {
     record.sourceRadius = static_cast<float>(std::sqrt(area / std::numbers::pi));
 }
 
-LightRecord recordOf(Engine::Impl const&, SunLight const& given) {
+LightRecord recordOf(Engine::Impl const& engine, SunLight const& given) {
     checkLight(given.color, 0, double3(0.0));
     const SunLight light = clamped(given); // its disc and halo: a direction or colour that is no number is misuse
-    return { .type = LightRecord::Type::Sun,
-             .directionWorld = unitDirection(given.directionWorld),
-             .color = given.color,
-             .intensity = given.illuminance.value,
-             .sourceRadius = elementary::tan(glm::radians(light.angularRadiusDegrees)),
-             .castsShadows = light.castsShadows,
-             .contactShadows = light.contactShadows,
-             .channels = light.lightChannels,
-             .showsDisc = light.showsDisc,
-             .haloSize = light.haloSize,
-             .haloFalloff = light.haloFalloff };
+    LightRecord record{ .type = LightRecord::Type::Sun,
+                        .directionWorld = unitDirection(given.directionWorld),
+                        .color = given.color,
+                        .intensity = given.illuminance.value,
+                        .sourceRadius = elementary::tan(glm::radians(light.angularRadiusDegrees)),
+                        .castsShadows = light.castsShadows,
+                        .contactShadows = light.contactShadows,
+                        .channels = light.lightChannels,
+                        .showsDisc = light.showsDisc,
+                        .haloSize = light.haloSize,
+                        .haloFalloff = light.haloFalloff };
+    if (given.cookie) setCookie(engine, given, record);
+    return record;
 }
 
 LightRecord recordOf(Engine::Impl const& engine, PointLight const& light) {
@@ -109,10 +150,9 @@ LightRecord recordOf(Engine::Impl const& engine, PointLight const& light) {
                         .castsShadows = light.castsShadows,
                         .contactShadows = light.contactShadows,
                         .channels = light.lightChannels };
-    if (light.profile) {
-        record.directionWorld = unitDirection(light.directionWorld);
-        setProfile(engine, light.profile, light.upWorld, record);
-    }
+    if (light.profile || light.cookie) record.directionWorld = unitDirection(light.directionWorld);
+    if (light.profile) setProfile(engine, light.profile, light.upWorld, record);
+    if (light.cookie) setCookie(engine, light, record);
     return record;
 }
 
@@ -134,16 +174,22 @@ LightRecord recordOf(Engine::Impl const& engine, SpotLight const& light) {
                         .contactShadows = light.contactShadows,
                         .channels = light.lightChannels };
     if (light.profile) setProfile(engine, light.profile, light.upWorld, record);
+    if (light.cookie) setCookie(engine, light, record);
     return record;
 }
 
-LightRecord recordOf(Engine::Impl const&, RectLight const& light) {
+LightRecord recordOf(Engine::Impl const& engine, RectLight const& light) {
     LightRecord record = areaRecord(LightRecord::Type::Rect, light);
     record.directionWorld = unitDirection(light.directionWorld);
     const float3 up = acrossDirection(record.directionWorld, light.upWorld);
     record.sideWorld = glm::cross(record.directionWorld, up);
     setExtent(record, halfExtentOf(light.widthMeters / 2, light.heightMeters / 2));
     record.isTwoSided = light.isTwoSided;
+    if (light.image) {
+        FILAMENT_ASSERT(shapeOf(engine, light.image) == LightImageShape::Emitted,
+                        "the image of a rectangle is emitted");
+        record.image = engine.lightImages.get(light.image).words;
+    }
     return record;
 }
 

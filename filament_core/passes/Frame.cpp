@@ -50,6 +50,7 @@ uint8_t probeTermsOf(prepare::FramePacket const& packet) {
 ShadedLights lightsOf(prepare::FramePacket const& packet) {
     return { .hasAreas = packet.mainView().hasAreaLights,
              .hasProfiles = !packet.mainView().profiles.empty(),
+             .imageTerms = packet.mainView().images.terms,
              .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows),
              .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows),
              .probeTerms = probeTermsOf(packet) };

@@ -56,10 +56,12 @@ void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint3
     NewHandle handle(mStream, mStream.allocateBuffer());
     commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } * kind.bytes, kind.usage, kind.name } });
     blocks = { handle.keep(), grown };
+    if (&blocks == &set.froxels) set.images.clear();
 }
 
 FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
-    Needs needs;
+    prepare::LightImageLists const& images = packet.mainView().images;
+    Needs needs{ .lights = static_cast<uint32_t>(images.records.size()), .words = images.words };
     mViews.clear();
     mLists.clear();
     const auto place = [&](size_t lights, size_t words) {
@@ -181,6 +183,24 @@ void FrameData::uploadProfiles(CommandBuffer& commands, Set const& set, prepare:
     for (auto const& table : profiles.tables) upload(table);
 }
 
+// Tables are as large as textures, and stay where they are while the same images are in view.
+void FrameData::uploadImages(CommandBuffer& commands, Set& set, prepare::LightImageLists const& images) {
+    if (!images.empty()) commands.record(CmdUpdateBuffer{ set.lights.buffer, 0, std::as_bytes(images.records) });
+    mImages.clear();
+    uint32_t word = shader::kFirstImageWord;
+    for (auto const& table : images.tables) {
+        mImages.push_back({ table[3], word });
+        word += static_cast<uint32_t>(table.size());
+    }
+    if (mImages == set.images) return;
+    set.images.clear(); // until all are there
+    for (size_t i = 0; i < images.tables.size(); ++i) {
+        commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ mImages[i].word } * kWordBytes,
+                                         std::as_bytes(images.tables[i]) });
+    }
+    std::swap(set.images, mImages);
+}
+
 void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet) {
     // The sets are used in turn: frames before this one may still be replayed, or read by the device.
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
@@ -192,6 +212,7 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
     reserve(commands, set, set.lights, needs.lights, { kLightBytes, BufferUsage::Storage, "lights" });
     reserve(commands, set, set.froxels, needs.words, { kWordBytes, BufferUsage::Storage, "froxels" });
     if (!set.view) bindViews(commands, set);
+    uploadImages(commands, set, packet.mainView().images);
     for (ViewGroup& list : mLists) list.handle = set.view;
     ViewGroup const* lists = mLists.data();
     for (size_t i = 0; i < mViews.size(); ++i) {

@@ -5,7 +5,8 @@
 ///           irradiance fields of the main view (shader::IrradianceField), each of which begins a window. Lights and
 ///           froxels: storage buffers that hold those of all views, one view after the other; the uniforms of a view
 ///           say where its own begin (FrameUniforms::froxelPlaces, written here). Behind the froxels of a frame with
-///           area lights: shader::kLtcTable; then the light profiles of each view that has some.
+///           area lights: shader::kLtcTable; then the light profiles of each view that has some. Before all lights
+///           and froxels the images of the lights of the main view, whose tables are uploaded where they are not yet.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
@@ -60,8 +61,14 @@ private:
         backend::BufferHandle buffer;
         uint32_t capacity = 0;
     };
+    /// An image of a light, by its number, and its place in a buffer.
+    struct PlacedImage {
+        uint32_t number, word;
+        friend bool operator==(PlacedImage const&, PlacedImage const&) = default;
+    };
     struct Set {
         Blocks uniforms, objects, lights, froxels;
+        std::vector<PlacedImage> images; // that lie at the beginning of `froxels`
         backend::BindGroupHandle view;
         DeformationBuffer deformation;
     };
@@ -89,6 +96,7 @@ private:
                       ViewGroup const& group);
     void uploadProfiles(backend::CommandBuffer& commands, Set const& set, prepare::ProfileLists const& profiles,
                         uint32_t firstWord);
+    void uploadImages(backend::CommandBuffer& commands, Set& set, prepare::LightImageLists const& images);
     void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
                        prepare::FramePacket const& packet);
 
@@ -97,6 +105,7 @@ private:
     uint32_t mCurrent = 0;
     std::vector<ViewGroup> mViews; // of the frame uploaded last
     std::vector<ViewGroup> mLists; // of their channels
+    std::vector<PlacedImage> mImages;
 };
 
 } // namespace filament_core::passes

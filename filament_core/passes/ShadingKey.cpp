@@ -9,8 +9,8 @@ namespace filament_core::passes {
 namespace {
 
 // In the order of shader::kQualityConstants.
-constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 1, 2, 2, 1, 2, 1, 3, 2, 2,
-                                                                        2, 2, 1, 6, 2, 1, 1, 4, 3, 1, 3 };
+constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 1, 1, 1, 2, 2, 1, 2, 1, 3, 2, 2,
+                                                                        2, 2, 1, 6, 2, 1, 2, 1, 4, 3, 1, 3 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -53,6 +53,7 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              screen.fogTerms,
              lights.hasAreas ? 1 + static_cast<uint32_t>(quality.areaLights) : 0u,
              lights.hasProfiles ? 1u : 0u,
+             lights.imageTerms,
              lights.hasColoredShadows ? 1u : 0u,
              static_cast<uint32_t>(quality.shadows),
              0u, // withTransparency()
@@ -96,7 +97,8 @@ ShadingKey ofUnlit(ShadingKey key) { return key & (maskOf(shader::kQualityFog) |
 
 ShadingKey ofLights(ShadingKey key) {
     return key & (maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles) |
-                  maskOf(shader::kQualityColoredShadows) | maskOf(shader::kQualityShadowFilter));
+                  maskOf(shader::kQualityLightImages) | maskOf(shader::kQualityColoredShadows) |
+                  maskOf(shader::kQualityShadowFilter));
 }
 
 ShadingKey ofBoundTextures(ShadingKey key) { return key & maskOf(shader::kQualityReflectionProbes); }

@@ -22,6 +22,7 @@ using ShadingKey = uint64_t;
 struct ShadedLights {
     bool hasAreas = false;
     bool hasProfiles = false;
+    uint8_t imageTerms = 0;         ///< shader::LightImageTerms
     bool hasColoredShadows = false; ///< some shadow map has three channels
     bool hasContactShadows = false;
     uint8_t probeTerms = 0; ///< shader::ProbeTerms

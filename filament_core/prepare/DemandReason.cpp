@@ -15,6 +15,8 @@ constexpr std::array kReasons{
     ReasonRow{ R::BrightestSun, "the brightest of {count}; the others are in the light list" },
     ReasonRow{ R::ProfilesOverBudget,
                "{count} in view; {leftOut} of them are dark: their profiles take more than 16 MiB" },
+    ReasonRow{ R::ImagesOverBudget,
+               "{count} in view; {leftOut} of them are dark: images of more than 1024 lights or 16 MiB" },
     ReasonRow{ R::EnvironmentLights, "the environment lights what is visible" },
     ReasonRow{ .reason = R::ProbesInView,
                .text = "{count} light surfaces in view",

@@ -16,6 +16,7 @@ enum class DemandReason : uint8_t {
     OnlyLight,           ///< the only one in the scene does
     BrightestSun,        ///< of `count`
     ProfilesOverBudget,  ///< `count` lights do; the profiles of `leftOut` others exceed a limit
+    ImagesOverBudget,    ///< `count` lights do; the images of `leftOut` others exceed a limit
     EnvironmentLights,   ///< the environment lights surfaces in view
     ProbesInView,        ///< `count` boxes reach lit surfaces, `others` do not; `leftOut` do and are not used
     InView,              ///< `count` draws are in view

@@ -49,6 +49,14 @@ EffectDemand demandOfProfiles(DemandInput const& input) {
     return demand;
 }
 
+EffectDemand demandOfImages(DemandInput const& input) {
+    ViewCounts const& counts = input.counts;
+    EffectDemand demand = demandOfLights(counts.imagedLights, counts.imagedLightsLeftOut, counts.litDraws);
+    demand.leftOut = counts.imagesOverLimit;
+    if (demand.isNeeded && demand.leftOut) demand.reason = R::ImagesOverBudget;
+    return demand;
+}
+
 EffectDemand demandOfShadows(DemandInput const& input) {
     ShadowCounts const& counts = input.shadows;
     if (!counts.isOn) return { .reason = R::SwitchedOff };
@@ -375,6 +383,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::LightList, "light list", Stage::Lighting, demandOfLightList },
         { Effect::AreaLights, "area lights", Stage::Lighting, demandOfAreaLights },
         { Effect::LightProfiles, "light profiles", Stage::Lighting, demandOfProfiles },
+        { Effect::LightImages, "light images", Stage::Lighting, demandOfImages },
         { Effect::Shadows, "shadows", Stage::Lighting, demandOfShadows, "shadows=off" },
         { Effect::ColoredShadows, "coloured shadows", Stage::Lighting, demandOfColoredShadows, "coloredShadows=off" },
         { Effect::IndirectLight, "indirect light", Stage::Lighting, demandOfIndirectLight },

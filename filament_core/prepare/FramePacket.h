@@ -115,6 +115,15 @@ struct ProfileLists {
     bool empty() const { return lights.empty(); }
 };
 
+/// The images of the lights of the main view, as shaders read them (shader::ImagedLight).
+struct LightImageLists {
+    std::span<const shader::ImagedLight> records;      ///< and room for some more
+    std::span<const std::span<const uint32_t>> tables; ///< each once, in the order of their first lights
+    uint32_t words = 0;                                ///< from the first of the buffer to behind the last table
+    uint8_t terms = 0;                                 ///< shader::LightImageTerms
+    bool empty() const { return records.empty(); }
+};
+
 /// The draws of ViewPacket::blended that Quality::transparency composes in any order; none: all are drawn in order.
 struct AnyOrderDraws {
     uint32_t first = 0, end = 0; ///< of `blended`
@@ -132,6 +141,7 @@ struct ViewPacket {
     ChannelLists channels;
     bool hasAreaLights = false; ///< among `lights`
     ProfileLists profiles;      ///< of `lights`
+    LightImageLists images;     ///< of `lights`
     ObjectList objects;
     std::span<const DrawCall> opaque;         ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended;        ///< back to front; none where nothing is shaded

@@ -22,10 +22,11 @@ uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
     return hashWords(seed, counts.renderables, counts.visible, counts.outOfView, counts.tooSmall, counts.nothingToDraw,
                      counts.inOtherLayers, counts.occluded, counts.blendedLeftOut, counts.lights, counts.areaLights,
                      counts.areaLightsLeftOut, counts.profiledLights, counts.profiledLightsLeftOut,
-                     counts.profilesOverLimit, counts.lightsOutOfView, counts.lightsOfOtherChannels,
-                     counts.sunsOfOtherChannels, counts.lightsOverLimit, counts.froxels, counts.froxelEntries,
-                     counts.longestFroxel, counts.fullFroxels, counts.lightsLeftOut, counts.suns, counts.litDraws,
-                     counts.blendedDraws, counts.triangles);
+                     counts.profilesOverLimit, counts.imagedLights, counts.imagedLightsLeftOut, counts.imagesOverLimit,
+                     counts.lightsOutOfView, counts.lightsOfOtherChannels, counts.sunsOfOtherChannels,
+                     counts.lightsOverLimit, counts.froxels, counts.froxelEntries, counts.longestFroxel,
+                     counts.fullFroxels, counts.lightsLeftOut, counts.suns, counts.litDraws, counts.blendedDraws,
+                     counts.triangles);
 }
 
 uint64_t hashChannels(ChannelLists const& channels, uint64_t seed) {
@@ -42,6 +43,14 @@ uint64_t hashProfiles(ProfileLists const& profiles, uint64_t seed) {
     seed = hashBytes(std::as_bytes(profiles.lights), seed);
     for (const std::span<const uint32_t> table : profiles.tables) seed = hashBytes(std::as_bytes(table), seed);
     return hashWords(seed, profiles.lights.size(), profiles.tables.size());
+}
+
+// Of tables the head, with the image's number.
+uint64_t hashImages(LightImageLists const& images, uint64_t seed) {
+    seed = hashBytes(std::as_bytes(images.records), seed);
+    for (const std::span<const uint32_t> table : images.tables)
+        seed = hashBytes(std::as_bytes(table.first(shader::kImageHeaderWords)), seed);
+    return hashWords(seed, images.records.size(), images.tables.size());
 }
 
 uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {
@@ -99,6 +108,7 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed) {
     seed = hashBytes(std::as_bytes(view.froxels.words), seed);
     seed = hashChannels(view.channels, seed);
     seed = hashProfiles(view.profiles, seed);
+    seed = hashImages(view.images, seed);
     seed = hashObjects(view.objects, seed);
     for (DrawCall const& draw : view.opaque) seed = hashDraw(draw, seed);
     for (DrawCall const& draw : view.blended) seed = hashDraw(draw, seed);

@@ -151,6 +151,7 @@ void dropUnseenLights(Arena& arena, scene::Lights const& lights, uint8_t seen, P
             scene::LightRecord const& unseen = lights.records[view.lightRecords[i]];
             packet.counts.areaLights -= unseen.isArea() ? 1 : 0;
             packet.counts.profiledLights -= unseen.profile ? 1 : 0;
+            packet.counts.imagedLights -= unseen.image ? 1 : 0;
             packet.counts.contactLights -= unseen.contactShadows ? 1 : 0;
             continue;
         }

@@ -4,6 +4,7 @@
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/Froxels.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PlaceImages.h"
 #include "filament_core/prepare/PlaceProfiles.h"
 #include "filament_core/prepare/PrefetchDraws.h"
 #include "filament_core/prepare/SceneColorLayers.h"
@@ -148,6 +149,8 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.hasAreaLights = !packet.lights.empty() && packet.counts.areaLights > 0;
     if (!packet.lights.empty() && packet.counts.profiledLights > 0)
         placeProfiles(arena, lights, prepared.lightRecords, packet);
+    if (!packet.lights.empty() && packet.counts.imagedLights > 0)
+        placeImages(arena, lights, prepared.lightRecords, space.cameraWorld, packet);
     // After the last change of the list of lights, because froxels hold indices into it.
     packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
     packet.objects = { order, renderables.placement,

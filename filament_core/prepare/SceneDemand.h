@@ -24,6 +24,7 @@ enum class Effect : uint8_t {
     LightList,      ///< points, spots, areas and all other suns
     AreaLights,     ///< those of the list that are rectangles, discs or tubes
     LightProfiles,  ///< those of the list whose light a file distributes
+    LightImages,    ///< those that project or show an image; the brightest sun may be one
     Shadows,        ///< of suns, points, spots and areas
     ColoredShadows, ///< of what transmits light
     IndirectLight,

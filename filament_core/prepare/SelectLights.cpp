@@ -90,12 +90,12 @@ float sunThroughFog(shader::FrameUniforms const& frame) {
     return rate > 0 ? elementary::exp(-elementary::exp(std::clamp(frame.fogMedium.x, -80.0f, 50.0f)) / rate) : 0.0f;
 }
 
-/// Returns the sun of the uniforms, the brightest.
+/// Returns the sun of the uniforms, the brightest of those without an image.
 LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure,
                             ViewCounts& counts) {
     LightRecord const* brightest = nullptr;
     for (LightRecord const& light : lights.records) {
-        if (light.type != LightRecord::Type::Sun || light.channels == 0) continue;
+        if (light.type != LightRecord::Type::Sun || light.channels == 0 || light.image) continue;
         ++counts.suns;
         if (!brightest || weight(light) > weight(*brightest)) brightest = &light;
     }
@@ -117,7 +117,7 @@ LightSelector::LightSelector(Arena& arena, scene::Lights const& lights)
           mRecords(arena.arrayForOverwrite<uint32_t>(mChosen.size())) {}
 
 uint32_t LightSelector::findCandidates(ViewSpace const& space, LightRecord const* sun, ViewCounts& counts) const {
-    uint32_t count = 0, areas = 0, profiled = 0;
+    uint32_t count = 0, areas = 0, profiled = 0, imaged = 0;
     for (uint32_t i = 0; i < mLights.records.size(); ++i) {
         LightRecord const& light = mLights.records[i];
         if (&light == sun || light.intensity <= 0 || light.channels == 0 || extentOf(light) <= 0) continue;
@@ -126,6 +126,7 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, LightRecord const
             ++counts.lightsOutOfView;
             counts.areaLightsLeftOut += light.isArea() ? 1 : 0;
             counts.profiledLightsLeftOut += light.profile ? 1 : 0;
+            counts.imagedLightsLeftOut += light.image ? 1 : 0;
             continue;
         }
         const double3 toLight = light.positionWorld - space.cameraWorld;
@@ -133,10 +134,12 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, LightRecord const
         const float importance = isSun ? weight(light) : weight(light) / squaredDistance;
         areas += light.isArea() ? 1 : 0;
         profiled += light.profile ? 1 : 0;
+        imaged += light.image ? 1 : 0;
         mCandidates[count++] = { i, importance > 0 ? importance : 0.0f }; // colours may be NaN; sorting needs numbers
     }
     counts.areaLightsLeftOut += areas; // until they are chosen
     counts.profiledLightsLeftOut += profiled;
+    counts.imagedLightsLeftOut += imaged;
     return count;
 }
 
@@ -160,10 +163,12 @@ SelectedLights LightSelector::select(ViewSpace const& space, shader::FrameUnifor
         inCommon &= light.channels;
         counts.areaLights += light.isArea() ? 1 : 0;
         counts.profiledLights += light.profile ? 1 : 0;
+        counts.imagedLights += light.image ? 1 : 0;
         counts.contactLights += light.contactShadows ? 1 : 0;
     }
     counts.areaLightsLeftOut -= counts.areaLights;
     counts.profiledLightsLeftOut -= counts.profiledLights;
+    counts.imagedLightsLeftOut -= counts.imagedLights;
     frame.ambient.w = static_cast<float>(counts.lights);
     if (sun && sun->contactShadows) ++counts.contactLights;
     SelectedLights selected{ mChosen.first(counts.lights), mRecords.first(counts.lights), {}, inCommon };

@@ -23,6 +23,9 @@ struct ViewCounts {
     uint32_t profiledLights = 0;        ///< of `lights`: those with a profile
     uint32_t profiledLightsLeftOut = 0; ///< of lightsOutOfView and lightsOverLimit
     uint32_t profilesOverLimit = 0;     ///< profiled lights that stay dark: their tables are beyond kMaxProfileWords
+    uint32_t imagedLights = 0;          ///< of `lights`: those with an image
+    uint32_t imagedLightsLeftOut = 0;   ///< of lightsOutOfView and lightsOverLimit
+    uint32_t imagesOverLimit = 0;       ///< lights that stay dark: their images are beyond kMaxImageWords
     uint32_t lightsOfOtherChannels = 0; ///< in view, but on no channel of a lit surface in view; without the sun
     uint32_t lightsOverLimit = 0;       ///< in view, but beyond kMaxPunctualLights: the dimmest
     uint32_t froxels = 0;               ///< cells of the grid; 0: one list for the whole view

@@ -42,6 +42,8 @@ inline constexpr ObjectKind kObjectKind<MorphTargetsObject>{ "morph targets", fa
 template <>
 inline constexpr ObjectKind kObjectKind<LightProfileObject>{ "light profile", false };
 template <>
+inline constexpr ObjectKind kObjectKind<LightImageObject>{ "light image", false };
+template <>
 inline constexpr ObjectKind kObjectKind<SkyboxObject>{ "skybox", false };
 template <>
 inline constexpr ObjectKind kObjectKind<RenderTargetObject>{ "render target", false };

@@ -43,7 +43,11 @@ struct LightRecord {
     /// Of points and spots: the words of shader::kProfileHeaderWords. None: as bright in all directions. The light
     /// shines along directionWorld, and the profile's +X is along sideWorld.
     std::shared_ptr<const std::vector<uint32_t>> profile{};
-    bool showsDisc = false; ///< suns
+    /// Of points, spots and suns: the words of shader::kImageHeaderWords; its right is sideWorld. None: white.
+    std::shared_ptr<const std::vector<uint32_t>> image{};
+    float2 imageScale{ 1.0f };  ///< images that a unit beside the axis covers: a metre from a spot; of suns
+    float2 imageOffset{ 0.0f }; ///< of suns, images
+    bool showsDisc = false;     ///< suns
     float haloSize = 1, haloFalloff = 0;
 
     bool isArea() const { return type >= Type::Rect; }

@@ -128,7 +128,7 @@ void placeAttached(SceneData& scene, uint32_t slot) {
         LightRecord& record = scene.lights.records[scene.lights.index.at(light)];
         record.positionWorld = transformPoint(world, pose.position);
         record.directionWorld = turned(world, pose.direction);
-        if (record.isArea() || record.profile) record.sideWorld = turned(world, pose.side);
+        if (record.isArea() || record.profile || record.image) record.sideWorld = turned(world, pose.side);
     });
 }
 

@@ -36,6 +36,7 @@ layout(set = 2, binding = 3, std430) writeonly buffer WrittenFogLight {
 #include "shaders/lib/moments.glsl"
 #include "shaders/material/surface/shadow_maps.glsl"
 #include "shaders/material/surface/light_list.glsl"
+#include "shaders/material/surface/light_images.glsl"
 #include "shaders/material/surface/area_shapes.glsl"
 #include "shaders/material/surface/profiles.glsl"
 #include "shaders/material/surface/listed_light.glsl"
@@ -98,9 +99,36 @@ highp vec3 visibilityOf(ListedLight listed, ListedRay ray) {
     return visibility;
 }
 
+// Metres of a cell across the view: images of lights are averaged over it.
+highp float widthOfCell(highp vec3 point) {
+    highp float distance = frameUniforms.clipFromView[3].w != 0.0 ? 1.0 : sqrt(dot(point, point));
+    return distance * 2.0 / (frameUniforms.fogGrid.y * max(abs(frameUniforms.clipFromView[1].y), 1e-6));
+}
+
+// The light's image at the point.
+highp vec3 colorByImage(ListedLight listed, ListedRay ray) {
+    highp vec3 color = vec3(1.0);
+    highp float own = ray.isAnArea ? ray.colorIntensity.w / kShapeImaged
+                                   : lightBuffer.lights[listed.index].offset.w / kImagedLightStep;
+    if (own >= 1.0) {
+        int imaged = int(own) - 1;
+        int table = int(lightBuffer.lights[imaged].offset.x);
+        highp vec3 place;
+        if (ray.isAnArea) {
+            place = placeOnArea(areaLightAt(listed.index, ray.toLight, ray.colorIntensity), vec3(0.0), 1.0);
+            place.z *= sqrt(float(froxelBuffer.words[table]) * float(froxelBuffer.words[table + 1]));
+        } else {
+            place = placeOnCookie(imaged, ray.isSun ? litPoint : -ray.toLight, widthOfCell(litPoint));
+        }
+        color = place.z < 0.0 ? vec3(0.0) : imageAt(table, vec2(place.x, place.y), log2(clamp(place.z, 1.0, 1e6)));
+    }
+    return color;
+}
+
 // Lux: on a plane that faces the light.
 highp vec3 illuminanceBy(ListedLight listed, ListedRay ray) {
     highp vec3 illuminance = ray.colorIntensity.rgb;
+    if (quality_lightImages != 0) illuminance *= colorByImage(listed, ray);
     if (ray.isAnArea) {
         AreaLight area = areaLightAt(listed.index, ray.toLight, ray.colorIntensity);
         illuminance *= integralOver(areaFrame(ray.direction, ray.direction), area).z;

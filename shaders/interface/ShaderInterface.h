@@ -199,6 +199,7 @@ enum LightShape : uint8_t {
     kShapeDisc = 3,
     kShapeTube = 4,
     kShapeTwoSided = 4, ///< added to rectangles and discs
+    kShapeImaged = 8,   ///< times its ImagedLight + 1, added to a rectangle with an image
 };
 
 /// A point, a spot, an area, or a sun besides the one of FrameUniforms; pre-exposed.
@@ -209,7 +210,8 @@ struct PunctualLight {
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
     float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n:
                             ///< face n, or cascade n of a sun, has a map; bit 6: these are a cube's; bit 7: it has
-                            ///< contact shadows; w: its ProfiledLight + 1, 0: none
+                            ///< contact shadows; w: its ProfiledLight + 1, 0: none; and kImagedLightStep times its
+                            ///< ImagedLight + 1
 };
 
 /// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float
@@ -219,6 +221,27 @@ inline constexpr uint32_t kProfiledLightWords = 4;
 /// Then the tables: rows, columns, rows a radian as float bits; then LightProfileTable::words.
 inline constexpr uint32_t kProfileHeaderWords = 3;
 inline constexpr uint32_t kMaxProfileWords = 1u << 22; ///< of the tables of a view: 16 MiB
+
+/// What belongs to the image of one light: the first records of the light buffer. Its members are rows, whose products
+/// with (x, y, z, 1) are x, y and z of a place in the image; the vector leads from the lamp to a point, of suns it is
+/// the point. offset.x: where the table begins, in words from the first of FroxelBuffer; y: ImageMapping; z: texels a
+/// metre where z is 1. Of rectangles offset.x alone counts.
+using ImagedLight = PunctualLight;
+inline constexpr uint32_t kImagedLightStep = 8192;
+inline constexpr uint32_t kMaxImagedLights = 1024; ///< of a view
+static_assert(kMaxPunctualLights < kImagedLightStep && (kMaxImagedLights + 1) * kImagedLightStep < 1u << 24,
+              "a float holds both");
+/// The tables of the images of the main view: columns and rows, the last mip level, a number of the image; where each
+/// level begins, as words from the table's first; then the levels, RGB9E5, each with a border of one texel.
+inline constexpr uint32_t kImageHeaderWords = 4;
+inline constexpr uint32_t kMaxImageWords = 1u << 22; ///< of a view: 16 MiB
+inline constexpr uint32_t kFirstImageWord = 4;       ///< 0 is no place
+
+enum ImageMapping : uint32_t {
+    kImageProjected = 0,  ///< (x, y) / z, in [0, 1] over the image; dark elsewhere
+    kImageOctahedral = 1, ///< of the direction (x, y, z)
+    kImageTiled = 2,      ///< the fractions of x and y
+};
 
 // ---- ProbeUniforms
 /// A reflection probe of a view. Positions are relative to the camera.
@@ -302,6 +325,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityMipBias = 1021, ///< 1: materials' textures are read at biased mip levels; all surfaces
                             ///< have this one
     kQualityReflectionProbes = 1022, ///< 0: no reflection probe lights what is visible; else ProbeTerms
+    kQualityLightImages = 1023, ///< LightImageTerms
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -351,6 +375,12 @@ enum TransparencyTerm : uint8_t {
     kTransparencyBeyond = 6,        ///< their colour, where they are farther than it
 };
 
+/// Which lights of a view have images; a set.
+enum LightImageTerms : uint8_t {
+    kLightCookies = 1, ///< points, spots or suns
+    kAreaImages = 2,   ///< rectangles
+};
+
 inline constexpr std::array kQualityConstants{
     QualityConstant{ "specularVisibility", kQualitySpecularVisibility },
     QualityConstant{ "fresnel", kQualityFresnel },
@@ -370,6 +400,7 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "fog", kQualityFog },
     QualityConstant{ "areaLights", kQualityAreaLights },
     QualityConstant{ "lightProfiles", kQualityLightProfiles },
+    QualityConstant{ "lightImages", kQualityLightImages },
     QualityConstant{ "coloredShadows", kQualityColoredShadows },
     QualityConstant{ "shadowFilter", kQualityShadowFilter },
     QualityConstant{ "transparency", kQualityTransparency },

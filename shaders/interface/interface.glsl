@@ -20,6 +20,8 @@ const int kContactShadowBit = 128;
 const int kMaxProbesOfView = 8;
 const int kProfiledLightWords = 4;
 const int kProfileHeaderWords = 3;
+const float kImagedLightStep = 8192.0;
+const int kImageHeaderWords = 4;
 
 layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     mat4 clipFromWorld; // the world is relative to the camera

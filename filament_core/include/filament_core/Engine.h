@@ -159,6 +159,9 @@ public:
     /// Fails: Corrupt or Unsupported, with the name, the line of the file, and what was expected there. From a path:
     /// loadLightProfile() of <filament_core/LightProfile.h>.
     Result<LightProfile> create(LightProfileDesc const& desc);
+    /// Fails: InvalidArgument for a size that does not fit the shape. From a path: loadLightImage() of
+    /// <filament_core/LightImage.h>.
+    Result<LightImage> create(LightImageDesc const& desc);
     RenderTarget create(RenderTargetDesc const& desc);
     SwapChain create(SwapChainDesc const& desc);
     /// Fails: Corrupt or Unsupported for the package; NotFound with the nearest name for an unknown constant.
@@ -194,6 +197,7 @@ public:
     /// What the material declares, and the values it was loaded with. Valid until the material is destroyed.
     MaterialDescription const& describe(Material material) const;
     LightProfileDescription describe(LightProfile profile) const;
+    LightImageDescription describe(LightImage image) const;
 
     /// For set() in every frame, without the search by name. NotFound names the nearest parameter.
     Result<ParameterId> findParameter(Material material, std::string_view name) const;
@@ -242,8 +246,8 @@ public:
     /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 
-    /// The handle ends at once; what still uses the object keeps it: a material its instances, a light its profile. A
-    /// null handle: nothing happens.
+    /// The handle ends at once; what still uses the object keeps it: a material its instances, a light its profile and
+    /// its image. A null handle: nothing happens.
     void destroy(EngineObject object);
 
     template <class T>

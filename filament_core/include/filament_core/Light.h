@@ -27,9 +27,9 @@ namespace filament_core {
 using LightChannels = uint8_t;
 inline constexpr LightChannels kDefaultLightChannels = 1;
 
-/// Parallel light; a scene has any number. The brightest is the sun of the uniforms and of the directional shader
-/// variant. The others are among the 4096 lights of a view, in the order of the scene: they cost what an unlimited
-/// point costs, and materials compiled without dynamic lighting ignore them.
+/// Parallel light; a scene has any number. The brightest without a cookie is the sun of the uniforms and of the
+/// directional shader variant. The others are among the 4096 lights of a view, in the order of the scene: they cost
+/// what an unlimited point costs, and materials compiled without dynamic lighting ignore them.
 struct SunLight {
     float3 directionWorld{ 0, -1, 0 }; ///< the direction in which the light travels; any length except zero
     Lux illuminance{ 110'000 };        ///< on a surface facing it, [0, 1e12]
@@ -45,6 +45,12 @@ struct SunLight {
     /// Screen-space shadows of casters too small for shadow maps: Effects::contactShadows. docs/shadows.md.
     bool contactShadows = false;
     LightChannels lightChannels = kDefaultLightChannels;
+    LightImage cookie{};     ///< Tiled: repeated over the world, such as shadows of clouds. None: white
+    float cookieMeters = 10; ///< width of the image across the direction, > 0; the height follows from its pixels
+    /// By which the image moves to its right and down. Without, the origin of the world is a corner of it.
+    float2 cookieOffsetMeters{ 0.0f };
+    /// Of the cookie: its right is cross(directionWorld, upWorld). Only the part across the direction counts. None: any
+    float3 upWorld{ 0, 1, 0 };
 };
 
 /// A profile makes it a luminaire: `intensity` is that of the brightest direction, and the profile scales the others
@@ -60,8 +66,11 @@ struct PointLight {
     bool castsShadows = true;
     bool contactShadows = false; ///< see SunLight
     LightChannels lightChannels = kDefaultLightChannels;
-    LightProfile profile{};            ///< none: as bright in every direction, and the following are unused
-    float3 directionWorld{ 0, 0, -1 }; ///< where both angles of the profile are zero; any length except zero
+    LightProfile profile{}; ///< none: as bright in every direction
+    LightImage cookie{};    ///< Octahedron or Cube: multiplied with the light, in the frame of -Z along directionWorld,
+                            ///< +X along cross(directionWorld, upWorld). None: white
+    /// Where both angles of the profile are zero; any length except zero. Unused without a profile and a cookie.
+    float3 directionWorld{ 0, 0, -1 };
     /// With `directionWorld` it gives the side where the horizontal angle is zero, cross(directionWorld, upWorld). Only
     /// the part across the direction counts. None: any
     float3 upWorld{ 0, 1, 0 };
@@ -82,11 +91,14 @@ struct SpotLight {
     bool castsShadows = true;
     bool contactShadows = false; ///< see SunLight
     LightChannels lightChannels = kDefaultLightChannels;
-    LightProfile profile{};    ///< aimed along directionWorld; see PointLight
-    float3 upWorld{ 0, 1, 0 }; ///< of the profile; see PointLight
+    LightProfile profile{}; ///< aimed along directionWorld; see PointLight
+    /// Projected: multiplied with the light. The outer cone touches its nearer edges, up to 80 degrees; beyond them
+    /// it is dark. Seen along directionWorld, with upWorld upwards. None: white
+    LightImage cookie{};
+    float3 upWorld{ 0, 1, 0 }; ///< of the profile and the cookie; see PointLight
 };
 
-// ---- area lights of uniform luminance in every direction: docs/lights-area.md
+// ---- area lights, as bright in every direction: docs/lights-area.md
 //   Shape     they light surfaces, and are themselves invisible: add a mesh with an emissive material to show one.
 //   Units     luminance, or by luminanceFromFlux() the luminous flux of the whole light. A luminance that is not a
 //             number, infinite or negative counts as 0. Sizes are finite and >= 0; without an area there is no light.
@@ -102,6 +114,7 @@ struct RectLight {
     float3 directionWorld{ 0, 0, -1 }; ///< in which it shines; any length except zero
     float3 upWorld{ 0, 1, 0 };         ///< along its height; only the part across the direction counts. None: any
     float widthMeters = 1, heightMeters = 1;
+    LightImage image{}; ///< Emitted: multiplied with the luminance; upright as seen from the front. None: white
     Nits luminance{ 1000 };
     LinearColor color{ 1.0f };
     float rangeMeters = 0;

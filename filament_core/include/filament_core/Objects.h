@@ -36,13 +36,14 @@ using MaterialInstance = ObjectHandle<struct MaterialInstanceObject>;
 using IndirectLight = ObjectHandle<struct IndirectLightObject>;
 using MorphTargets = ObjectHandle<struct MorphTargetsObject>;
 using LightProfile = ObjectHandle<struct LightProfileObject>;
+using LightImage = ObjectHandle<struct LightImageObject>;
 using Skybox = ObjectHandle<struct SkyboxObject>;
 using RenderTarget = ObjectHandle<struct RenderTargetObject>;
 using SwapChain = ObjectHandle<struct SwapChainObject>;
 
 /// Any object of an engine, for Engine::destroy().
 using EngineObject = std::variant<Texture, VertexBuffer, IndexBuffer, MorphTargets, Material, MaterialInstance,
-                                  IndirectLight, Skybox, LightProfile, RenderTarget, SwapChain>;
+                                  IndirectLight, Skybox, LightProfile, LightImage, RenderTarget, SwapChain>;
 
 /// Refers to a request to Engine::compile().
 struct Compilation {
@@ -260,6 +261,36 @@ struct LightProfileDesc {
 struct LightProfileDescription {
     Candela peak{}; ///< the brightest direction, > 0
     Lumen flux{};   ///< of all directions together
+};
+
+/// Which lights an image is for, and how its pixels lie around them. docs/lights.md, "Light cookies".
+enum class LightImageShape : uint8_t {
+    Projected,  ///< SpotLight: as from a slide projector
+    Tiled,      ///< SunLight: repeated over the plane across its direction
+    Octahedron, ///< PointLight: square; an octahedral map of all directions, the light's in the middle
+    Cube,       ///< PointLight: six square faces, +X -X +Y -Y +Z -Z, beside or below each other
+    Emitted,    ///< RectLight: what each point of the rectangle emits
+};
+template <>
+struct EnumNames<LightImageShape> {
+    static constexpr std::array<std::string_view, 5> values{ "projected", "tiled", "octahedron", "cube", "emitted" };
+};
+
+/// A share of a light for each colour, by direction or place: SpotLight::cookie and others. Negative numbers and those
+/// that are none count as 0; above 1 they brighten; the largest is 65408.
+struct LightImageDesc {
+    uint32_t width = 0, height = 0;      ///< pixels, [1, 16384]; more than kMaxLightImageSize a side are averaged
+    Format format = Format::RGBA8Srgb;   ///< or RGBA8, RGBA16F, RGBA32F; alpha is ignored
+    std::span<const std::byte> pixels{}; ///< tightly packed rows, row 0 at the top. Not needed after the call
+    LightImageShape shape = LightImageShape::Projected;
+    std::string name{}; ///< in messages
+};
+inline constexpr uint32_t kMaxLightImageSize = 512; ///< of a side, as it is stored
+
+struct LightImageDescription {
+    LightImageShape shape = LightImageShape::Projected;
+    uint32_t width = 0, height = 0; ///< as it is stored; a cube as an octahedron
+    float3 mean{ 0.0f };            ///< of all pixels, linear
 };
 
 /// The target of a view. Materials may sample its textures in every render() except those that draw to it.

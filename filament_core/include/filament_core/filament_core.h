@@ -22,6 +22,7 @@
 #include <filament_core/IrradianceGrid.h>
 #include <filament_core/JobTimeline.h>
 #include <filament_core/Light.h>
+#include <filament_core/LightImage.h>
 #include <filament_core/LightProfile.h>
 #include <filament_core/Lines.h>
 #include <filament_core/LoadOptions.h>

@@ -10,7 +10,7 @@ Light representativeOf(AreaFrame frame, AreaLight area, highp vec3 integral) {
     highp vec3 toLight = (frame.x * integral.x + frame.y * integral.y) + frame.z * integral.z;
     Light arriving;
     arriving.direction = normalizeOrZero(toLight);
-    highp vec3 illuminance = area.luminance * sqrt(dot(toLight, toLight));
+    highp vec3 illuminance = area.luminance * area.color * sqrt(dot(toLight, toLight));
     arriving.illuminance = illuminance * area.visibility;
 #if defined(CUSTOM_SURFACE_SHADING)
     arriving.color = tintedByShadow(illuminance, area.visibility);

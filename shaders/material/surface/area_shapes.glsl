@@ -7,6 +7,7 @@ const float kShapeSpot = 1.0;
 const float kShapeDisc = 3.0;
 const float kShapeTube = 4.0;
 const float kShapeTwoSided = 4.0; // added to rectangles and discs: 6 and 7
+const float kShapeImaged = 8.0; // times the place of its image, added to a rectangle
 const float kFullestTube = 0.0625; // of a tube's distance from its axis, as seen from inside: at most 4 times its width
 
 struct AreaLight {
@@ -14,6 +15,7 @@ struct AreaLight {
     highp vec3 halfX, halfY; // their cross product points away from a point that it shines on
     highp vec3 luminance;    // pre-exposed
     highp vec3 visibility;   // [0, 1]: visibility from shadow maps
+    highp vec3 color, mirrored; // of the image, as the diffuse and the specular lobe see it; 1 without one
     bool isDisc;
     bool isTwoSided;
 };
@@ -40,6 +42,7 @@ AreaLight areaLightAt(int index, highp vec3 center, highp vec4 colorIntensity) {
     highp vec4 xAndMore = lightBuffer.lights[index].directionScale;
     highp vec4 more = lightBuffer.lights[index].offset;
     highp float shape = colorIntensity.w;
+    if ((quality_lightImages & kAreaImages) != 0) shape -= kShapeImaged * floor(shape / kShapeImaged);
     AreaLight area;
     area.center = center;
     area.halfX = xAndMore.xyz;
@@ -48,6 +51,8 @@ AreaLight areaLightAt(int index, highp vec3 center, highp vec4 colorIntensity) {
     area.isTwoSided = shape > kShapeTube;
     area.isDisc = shape == kShapeDisc || shape == kShapeDisc + kShapeTwoSided;
     area.luminance = colorIntensity.rgb;
+    area.color = vec3(1.0);
+    area.mirrored = vec3(1.0);
     area.visibility = vec3(1.0);
     return area;
 }
@@ -80,6 +85,25 @@ highp vec3 shiningIntegral(AreaLight area, highp vec3 center, highp vec3 halfX, 
     highp vec3 integral = areaIntegral(center, halfX, halfY, area.isDisc);
     if (area.isTwoSided && integral.z < 0.0) integral = -integral;
     return integral.z > 0.0 ? integral : vec3(0.0);
+}
+
+// Where a lobe sees the image of a rectangle, in xy, and how much of it, in z: a standard deviation over the root of the
+// area. axis: of the lobe, any length. spread: its standard deviation a distance.
+// After Heitz, Dupuy, Hill and Neubelt 2016, section 5, who take the point's projection onto the area for every lobe.
+highp vec3 placeOnArea(AreaLight area, highp vec3 axis, highp float spread) {
+    highp vec3 normal = cross(area.halfX, area.halfY);
+    highp float away = dot(area.center, normal);
+    if (dot(axis, normal) * away <= 0.0) axis = normal; // it does not meet the plane
+    highp vec3 onPlane = axis * (away / max(abs(dot(axis, normal)), 1e-30));
+    if (dot(axis, normal) < 0.0) onPlane = -onPlane;
+    onPlane -= area.center;
+    highp vec2 square = vec2(dot(area.halfX, area.halfX), dot(area.halfY, area.halfY));
+    highp vec2 at = clamp(vec2(dot(onPlane, area.halfX), dot(onPlane, area.halfY)) / max(square, vec2(1e-30)), vec2(-1.0), vec2(1.0));
+    highp vec3 nearest = area.halfX * at.x + area.halfY * at.y;
+    highp vec3 beside = onPlane - nearest; // a lobe that misses the rectangle sees more of it
+    nearest += area.center;
+    highp float blur = spread * sqrt(dot(nearest, nearest)) + 0.5 * sqrt(dot(beside, beside));
+    return vec3(0.5 - 0.5 * at, blur * 0.5 / sqrt(max(sqrt(square.x * square.y), 1e-30)));
 }
 
 highp vec3 integralOver(AreaFrame frame, AreaLight area) {

@@ -12,6 +12,12 @@ bool isLit(highp vec3 visibility) {
 
 #if defined(HAS_LIGHT_LIST)
 
+// Metres that a pixel of the image covers across the view.
+highp float widthOfPixel(highp vec3 point) {
+    highp float distance = ofFragment(frameUniforms.clipFromView[3].w) != 0.0 ? 1.0 : sqrt(dot(point, point));
+    return distance * 2.0 * passUniforms.target.w / max(abs(frameUniforms.clipFromView[1].y), 1e-6);
+}
+
 #include "shaders/material/surface/light_list.glsl"
 #include "shaders/material/surface/listed_light.glsl"
 
@@ -27,6 +33,40 @@ highp vec3 areaLight(Surface surface, AreaLight area) {
         reflected = shadeAreaAsPoint(surface, area);
     }
     return reflected;
+}
+
+// Multiplies the light with its image. One loop for all lobes and kinds of lights: the code of a look-up is there once.
+void applyImage(Surface surface, int index, inout ListedRay ray, inout AreaLight area) {
+    highp float own = ray.isAnArea ? ray.colorIntensity.w / kShapeImaged : lightBuffer.lights[index].offset.w / kImagedLightStep;
+    if (own >= 1.0) {
+        int imaged = int(own) - 1;
+        int table = int(lightBuffer.lights[imaged].offset.x);
+        highp float texels = sqrt(float(froxelBuffer.words[table]) * float(froxelBuffer.words[table + 1]));
+        highp float width = widthOfPixel(vertex_worldPosition);
+        int lobes = ray.isAnArea ? 2 : 1;
+        for (int i = 0; i < lobes; ++i) {
+            highp vec3 axis = vec3(0.0);
+            highp float spread = 1.0;
+#if defined(AREA_LIGHTS_BY_LTC)
+            if (i == 1) {
+                axis = reflect(-surface.view, surface.normal);
+                spread = surface.alpha;
+            }
+#endif
+            highp vec3 place;
+            if (ray.isAnArea) {
+                place = placeOnArea(area, axis, spread);
+                place.z *= texels;
+            } else {
+                place = placeOnCookie(imaged, ray.isSun ? vertex_worldPosition : -ray.toLight, width);
+            }
+            highp vec3 color = vec3(0.0);
+            if (place.z >= 0.0) color = imageAt(table, vec2(place.x, place.y), log2(clamp(place.z, 1.0, 1e6)));
+            if (i == 0) area.color = color;
+            area.mirrored = color;
+        }
+        if (!ray.isAnArea) ray.colorIntensity.rgb *= area.color;
+    }
 }
 
 highp vec3 punctualLight(Surface surface, ListedLight listed) {
@@ -47,8 +87,13 @@ highp vec3 punctualLight(Surface surface, ListedLight listed) {
             highp float reach = isSun ? frameUniforms.contactShadows.x : sqrt(dot(toLight, toLight));
             visibility *= contactVisibility(isAsked, direction, reach);
         }
+        AreaLight area;
+        if (isAnArea) area = areaLightAt(index, toLight, colorIntensity);
+        if (quality_lightImages != 0 && isLit(visibility)) {
+            applyImage(surface, index, ray, area);
+            colorIntensity = ray.colorIntensity;
+        }
         if (isAnArea) {
-            AreaLight area = areaLightAt(index, toLight, colorIntensity);
             area.luminance *= attenuation;
             area.visibility = visibility;
             if (isLit(visibility)) light = areaLight(surface, area);

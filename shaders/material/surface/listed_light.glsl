@@ -29,8 +29,9 @@ ListedRay rayOfListed(ListedLight listed, highp vec3 point) {
         highp float offset = lightBuffer.lights[index].offset.x;
         attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
     }
+    highp float profiled = lightBuffer.lights[index].offset.w;
+    if (quality_lightImages != 0) profiled -= kImagedLightStep * floor(profiled / kImagedLightStep);
     if (quality_lightProfiles != 0 && !isAnArea) {
-        highp float profiled = lightBuffer.lights[index].offset.w;
         if (profiled > 0.0) {
             highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
             attenuation *= profileShare(int(profiled) - 1, forward, -direction);

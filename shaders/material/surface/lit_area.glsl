@@ -75,7 +75,7 @@ highp vec3 areaFromBehind(Surface surface, AreaFrame frame, AreaLight area) {
 #if defined(HAS_DIFFUSE_TRANSMISSION)
         float cosine = saturate(-dot(surface.normal, arriving.direction));
         vec3 left = diffuseLeft(surface, arriving.direction, cosine);
-        crossed = area.luminance * (surface.transmitted * left * (diffuseLambert() * integral.z));
+        crossed = area.luminance * (surface.transmitted * left * (diffuseLambert() * integral.z)) * area.color;
 #if defined(HAS_SHEEN)
         crossed *= sheenLeaves(surface.sheen);
 #endif
@@ -104,7 +104,7 @@ highp vec3 addCoatOfArea(Surface surface, AreaLight area, vec3 direction, highp 
 #if defined(HAS_CLEAR_COAT_NORMAL)
     specular = aboveHorizon(specular, true, direction);
 #endif
-    return reflected + area.luminance * (specular * share);
+    return reflected + area.luminance * area.mirrored * (specular * share);
 }
 
 #endif
@@ -118,19 +118,20 @@ highp vec3 shadeAreaByLtc(Surface surface, AreaLight area) {
         float nol = saturate(dot(surface.normal, direction));
         vec3 halfway = normalizeOrZero(surface.view + direction);
         float voh = saturate(dot(surface.view, halfway));
-        highp vec3 specular = specularOfArea(surface, frame, area);
+        highp vec3 specular = specularOfArea(surface, frame, area) * area.mirrored;
 #if defined(HAS_NORMAL)
         specular = aboveHorizon(specular, shading_isBumped, direction);
 #endif
         float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
-        highp vec3 lobes = surface.diffuse * diffuseLeft(surface, direction, nol) * (diffuse * integral.z) + specular;
+        highp vec3 lobes =
+                surface.diffuse * diffuseLeft(surface, direction, nol) * (diffuse * integral.z) * area.color + specular;
 #if defined(HAS_SHEEN)
         if (hasSheen(surface.sheen)) {
             vec4 sheen = sheenOfLight(surface.sheen, surface.nov, nol, saturate(dot(surface.normal, halfway)));
 #if defined(HAS_NORMAL)
             sheen.rgb = aboveHorizon(sheen.rgb, shading_isBumped, direction);
 #endif
-            lobes = lobes * sheen.w + sheen.rgb * integral.z;
+            lobes = lobes * sheen.w + sheen.rgb * integral.z * area.color;
         }
 #endif
         reflected = lobes * area.luminance;

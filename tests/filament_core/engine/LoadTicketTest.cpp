@@ -125,6 +125,7 @@ size_t objectsOf(Engine& engine) {
     Engine::Impl& impl = engine.impl();
     add(impl.textures), add(impl.vertexBuffers), add(impl.indexBuffers), add(impl.materials), add(impl.instances);
     add(impl.morphTargets), add(impl.indirectLights), add(impl.skyboxes), add(impl.lightProfiles);
+    add(impl.lightImages);
     return count;
 }
 

@@ -23,6 +23,7 @@
 namespace filament_core {
 namespace {
 
+constexpr float4 kWhite{ 1 };
 constexpr const char* kProfile = "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n100 50\n";
 constexpr const char* kShopPaint = R"(material { name : paint, shadingModel : unlit,
     parameters : [ { type : float4, name : tint }, { type : sampler2d, name : picture } ] }
@@ -40,6 +41,7 @@ struct Handles {
     IndirectLight light;
     Skybox skybox;
     LightProfile profile;
+    LightImage cookie;
     RenderTarget target;
     SwapChain chain;
     Renderable renderable;
@@ -80,6 +82,7 @@ public:
         engine.destroy(all.target), engine.destroy(all.chain), engine.destroy(all.light), engine.destroy(all.skybox);
         engine.destroy(all.instance), engine.destroy(all.material), engine.destroy(all.targets);
         engine.destroy(all.vertices), engine.destroy(all.indices), engine.destroy(all.profile);
+        engine.destroy(all.cookie);
         engine.destroy(all.texture), engine.destroy(all.depth);
     }
 
@@ -111,6 +114,11 @@ private:
         all.skybox = made(engine.create(SkyboxDesc{ .cube = all.texture, .name = "blue" }));
         all.profile = made(*engine.create(LightProfileDesc{
                 .file = std::as_bytes(std::span(kProfile, std::strlen(kProfile))), .name = "spotty" }));
+        all.cookie = made(*engine.create(LightImageDesc{ .width = 1,
+                                                         .height = 1,
+                                                         .format = Format::RGBA32F,
+                                                         .pixels = std::as_bytes(std::span(&kWhite, 1)),
+                                                         .name = "gobo" }));
         all.target = made(engine.create(RenderTargetDesc{ .color = all.texture, .name = "mirror" }));
         all.chain = made(engine.create(SwapChainDesc{ .size = { 4, 4 }, .name = "shop" }));
     }
@@ -277,6 +285,10 @@ std::vector<Use> usesOfLight() {
           [](World& world, Handles const& bad) { world.engine.destroy(bad.profile); }, true },
         { "Engine::describe(LightProfile)", "light profile", "spotty",
           [](World& world, Handles const& bad) { (void)world.engine.describe(bad.profile); } },
+        { "Engine::destroy(EngineObject)", "light image", "gobo",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.cookie); }, true },
+        { "Engine::describe(LightImage)", "light image", "gobo",
+          [](World& world, Handles const& bad) { (void)world.engine.describe(bad.cookie); } },
         { "Scene::setIndirectLight(IndirectLight, Lux, float)", "indirect light", "day",
           [](World& world, Handles const& bad) { world.scene.setIndirectLight(bad.light, Lux{ 1 }); }, true },
         { "Scene::setSkybox(Skybox, Lux, float)", "skybox", "blue",
@@ -285,6 +297,8 @@ std::vector<Use> usesOfLight() {
           [](World& world, Handles const& bad) { world.scene.add(PointLight{ .profile = bad.profile }); }, true },
         { "Scene::add(LightDesc, Node)", "light profile", "spotty",
           [](World& world, Handles const& bad) { world.scene.add(SpotLight{ .profile = bad.profile }); }, true },
+        { "Scene::add(LightDesc, Node)", "light image", "gobo",
+          [](World& world, Handles const& bad) { world.scene.add(SpotLight{ .cookie = bad.cookie }); }, true },
     };
 }
 
@@ -682,7 +696,7 @@ TEST(Misuse, DestroyingNothingDoesNothing) {
     world.engine.destroy(Texture{}), world.engine.destroy(VertexBuffer{}), world.engine.destroy(IndexBuffer{});
     world.engine.destroy(MorphTargets{}), world.engine.destroy(Material{}), world.engine.destroy(MaterialInstance{});
     world.engine.destroy(IndirectLight{}), world.engine.destroy(Skybox{}), world.engine.destroy(LightProfile{});
-    world.engine.destroy(RenderTarget{}), world.engine.destroy(SwapChain{});
+    world.engine.destroy(LightImage{}), world.engine.destroy(RenderTarget{}), world.engine.destroy(SwapChain{});
     EXPECT_THAT(world.engine.takeErrors(), testing::IsEmpty());
 }
 

@@ -85,6 +85,14 @@ TEST(ShadingKey, LightProfilesAreAKeyOnlyWhereThereAreSome) {
     EXPECT_EQ(withoutShadows(shadingKey(shadowed, {}, kProfiles)), shadingKey({}, {}, kProfiles));
 }
 
+TEST(ShadingKey, ImagesOfLightsAreAKeyWithAndWithoutALightList) {
+    const ShadingKey key = shadingKey({}, {}, { .imageTerms = shader::kLightCookies | shader::kAreaImages });
+    EXPECT_EQ(bitsOf(key, shader::kQualityLightImages), 3u);
+    EXPECT_EQ(withoutLightList(key), key) << "the sun may have one";
+    EXPECT_EQ(ofLights(key), key);
+    EXPECT_EQ(ofUnlit(key), 0);
+}
+
 TEST(ShadingKey, EveryTermOfTransparencyIsAKeyAndNoViewHasOne) {
     const ShadingKey key = shadingKey({ .fresnel = FresnelTerm::Exact, .transparency = TransparencyOrder::Peeled });
     EXPECT_EQ(key, shadingKey({ .fresnel = FresnelTerm::Exact })) << "the pass chooses";

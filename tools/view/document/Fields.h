@@ -154,7 +154,7 @@ template <> struct Fields<SunLight> {
         field("showsDisc", &SunLight::showsDisc), field("haloSize", &SunLight::haloSize),
         field("haloFalloff", &SunLight::haloFalloff), field("castsShadows", &SunLight::castsShadows),
         field("contactShadows", &SunLight::contactShadows), field("lightChannels", &SunLight::lightChannels) };
-    static constexpr size_t others = 0;
+    static constexpr size_t others = 4; // cookie and its place
 };
 template <> struct Fields<PointLight> {
     static constexpr auto list = std::tuple{
@@ -165,7 +165,7 @@ template <> struct Fields<PointLight> {
         field("lightChannels", &PointLight::lightChannels),
         field("directionWorld", &PointLight::directionWorld),
         field("upWorld", &PointLight::upWorld) };
-    static constexpr size_t others = 1; // profile
+    static constexpr size_t others = 2; // profile, cookie
 };
 template <> struct Fields<SpotLight> {
     static constexpr auto list = std::tuple{
@@ -178,7 +178,7 @@ template <> struct Fields<SpotLight> {
         field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters),
         field("castsShadows", &SpotLight::castsShadows), field("contactShadows", &SpotLight::contactShadows),
         field("lightChannels", &SpotLight::lightChannels), field("upWorld", &SpotLight::upWorld) };
-    static constexpr size_t others = 1; // profile
+    static constexpr size_t others = 2; // profile, cookie
 };
 template <> struct Fields<RectLight> {
     static constexpr auto list = std::tuple{
@@ -189,7 +189,7 @@ template <> struct Fields<RectLight> {
         field("color", &RectLight::color), field("rangeMeters", &RectLight::rangeMeters),
         field("isTwoSided", &RectLight::isTwoSided), field("castsShadows", &RectLight::castsShadows),
         field("lightChannels", &RectLight::lightChannels) };
-    static constexpr size_t others = 0;
+    static constexpr size_t others = 1; // image
 };
 template <> struct Fields<DiscLight> {
     static constexpr auto list = std::tuple{
