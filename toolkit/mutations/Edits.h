@@ -3,6 +3,7 @@
 ///   Thread  that of a StreamEdit: the driver's.
 #pragma once
 
+#include "shaders/interface/ShaderInterface.h"
 #include "toolkit/mutations/Mutations.h"
 
 #include <cmath>
@@ -80,7 +81,12 @@ public:
     using PayloadEdit::edit;
     void edit(CmdUpdateBuffer& command) override {
         if (mFrames.contains(command.buffer)) changeFrame(command);
-        if (mLights.contains(command.buffer)) changeLights(command);
+        if (mLights.contains(command.buffer)) {
+            if (isOfImages(command))
+                changeImages(command);
+            else
+                changeLights(command);
+        }
         if (mFroxels.contains(command.buffer)) changeFroxels(command);
     }
 
@@ -88,9 +94,19 @@ protected:
     virtual void changeFrame(CmdUpdateBuffer&) {}
     virtual void changeLights(CmdUpdateBuffer&) {}
     virtual void changeFroxels(CmdUpdateBuffer&) {}
+    /// Of shader::ImagedLight.
+    virtual void changeImages(CmdUpdateBuffer&) {}
     bool hasLights() const { return mHasLights; }
 
 private:
+    /// They come first, and the first table lies at the first word for tables.
+    static bool isOfImages(CmdUpdateBuffer const& command) {
+        shader::ImagedLight first{};
+        if (command.offset != 0 || command.bytes.size() < sizeof(first)) return false;
+        std::memcpy(&first, command.bytes.data(), sizeof(first));
+        return first.offset.x == float{ shader::kFirstImageWord };
+    }
+
     std::set<BufferHandle> mFrames, mLights, mFroxels;
     bool mHasLights = false;
 };

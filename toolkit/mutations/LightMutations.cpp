@@ -171,6 +171,20 @@ class AreaEdgeEdit final : public FrameEdit {
     }
 };
 
+/// The images of all rectangles upside down: half edges the other way.
+class AreaImageTurnEdit final : public FrameEdit {
+    void changeLights(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        for (size_t at = 0; at + sizeof(shader::PunctualLight) <= bytes.size(); at += sizeof(shader::PunctualLight)) {
+            const size_t color = at + offsetof(shader::PunctualLight, colorIntensity);
+            if (readFloat(bytes, color + 3 * sizeof(float)) < float{ shader::kShapeImaged }) continue;
+            const size_t edge = at + offsetof(shader::PunctualLight, directionScale);
+            for (const size_t i : { 0, 1, 2, 3, 4, 7 })
+                writeFloat(bytes, edge + 4 * i, -readFloat(bytes, edge + 4 * i));
+        }
+    }
+};
+
 /// Every lobe of area lights 1 % wider.
 class LtcTableEdit final : public FrameEdit {
     void changeFroxels(CmdUpdateBuffer& command) override {
@@ -200,6 +214,17 @@ class ProfileTableEdit final : public FrameEdit {
         if (!isProfileTable(command)) return;
         Bytes& bytes = copy(command.bytes);
         writeFloat(bytes, 8, 1.01f * readFloat(bytes, 8));
+    }
+};
+
+/// The image of the first light that has one, moved by 2 % of its width; of a point light turned.
+class CookieShiftEdit final : public FrameEdit {
+    void changeImages(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        shader::ImagedLight light;
+        std::memcpy(&light, bytes.data(), sizeof(light));
+        light.positionRange += 0.02f * light.directionScale;
+        std::memcpy(bytes.data(), &light, sizeof(light));
     }
 };
 
@@ -275,6 +300,8 @@ constexpr Mutation kLightMutations[] = {
     { "areaEdge", "the first area light 1 % wider", make<AreaEdgeEdit> },
     { "profileTurn", "the last light profile turned by half a degree", make<ProfileTurnEdit> },
     { "profileTable", "light profiles 1 % narrower", make<ProfileTableEdit> },
+    { "areaImageTurn", "the images of rectangles upside down", make<AreaImageTurnEdit> },
+    { "cookieShift", "the first light cookie moved by 2 % of its width", make<CookieShiftEdit> },
     { "ltcTable", "the lobes of area lights 1 % wider", make<LtcTableEdit> },
 };
 

@@ -9,6 +9,7 @@
 #include "toolkit/scenes/BuiltModel.h"
 #include "toolkit/showcase/Showcase.h"
 
+#include <filament_core/LightImage.h>
 #include <filament_core/LightProfile.h>
 #include <glm/ext/matrix_transform.hpp>
 
@@ -126,6 +127,10 @@ std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
     for (std::string const& profile : spec.lightProfiles) {
         if (std::string name = profile.empty() ? profile : missing(profile); !name.empty()) return name;
     }
+    for (LightImageFile const& image : spec.lightImages) {
+        const std::string file = image.file.string();
+        if (std::string name = file.empty() ? file : missing(file); !name.empty()) return name;
+    }
     for (ProbeSpec const& probe : spec.probes) {
         if (std::string name = isBuiltIn(probe.file) ? std::string() : missing(probe.file); !name.empty()) return name;
     }
@@ -171,8 +176,15 @@ fs::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& fo
     return hasProfile ? resolve(spec.lightProfiles[light], spec, folders.assets) : fs::path();
 }
 
+LightImageFile imageFile(SceneSpec const& spec, size_t light, SceneFolders const& folders) {
+    if (light >= spec.lightImages.size() || spec.lightImages[light].file.empty()) return {};
+    LightImageFile const& image = spec.lightImages[light];
+    return { resolve(image.file.string(), spec, folders.assets), image.shape };
+}
+
 Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
     std::map<fs::path, Owned<LightProfile>> profiles; // lights keep what they need of them
+    std::map<std::pair<fs::path, LightImageShape>, Owned<LightImage>> images;
     std::vector<LightDesc> lights = placedLights(spec);
     for (size_t i = 0; i < lights.size(); ++i) {
         const fs::path file = profileFile(spec, i, folders);
@@ -181,12 +193,25 @@ Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, Scen
             if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
             profiles[file] = engine.own(*loaded);
         }
-        const auto setProfile = [&](auto& light) {
+        const LightImageFile image = imageFile(spec, i, folders);
+        const std::pair key(image.file, image.shape);
+        if (!image.file.empty() && !images.contains(key)) {
+            const Result<LightImage> loaded = loadLightImage(engine, image.file, image.shape);
+            if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
+            images[key] = engine.own(*loaded);
+        }
+        const auto setFiles = [&](auto& light) {
             if constexpr (requires { light.profile; }) {
                 if (!file.empty()) light.profile = profiles[file];
             }
+            if constexpr (requires { light.cookie; }) {
+                if (!image.file.empty()) light.cookie = images[key];
+            }
+            if constexpr (requires { light.image; }) {
+                if (!image.file.empty()) light.image = images[key];
+            }
         };
-        std::visit(setProfile, lights[i]);
+        std::visit(setFiles, lights[i]);
         scene.add(lights[i]);
     }
     return {};

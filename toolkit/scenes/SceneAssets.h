@@ -33,7 +33,9 @@ Result<std::filesystem::path> environmentFile(SceneSpec const& spec, SceneFolder
 std::vector<LightDesc> placedLights(SceneSpec const& spec);
 /// The file of the profile of a light; empty: none.
 std::filesystem::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& folders);
-/// Adds the lights of the case, with their profiles.
+/// The image of a light; without a file: none.
+LightImageFile imageFile(SceneSpec const& spec, size_t light, SceneFolders const& folders);
+/// Adds the lights of the case, with their profiles and images.
 Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders);
 /// Adds the irradiance grids of the case, with its origin.
 Result<void> addGrids(Scene& scene, SceneSpec const& spec, SceneFolders const& folders);

@@ -3,7 +3,6 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/scenes/SceneDebug.h"
-#include "toolkit/scenes/SceneLights.h"
 
 #include <filament_core/Look.h>
 #include <filament_core/Sky.h>
@@ -222,19 +221,22 @@ void readModel(JsonReader& reader, SceneSpec& spec) {
 }
 
 void readLights(JsonReader& reader, SceneSpec& spec) {
-    reader.objects("suns", [&](JsonReader& r) { spec.lights.emplace_back(readSun(r)); });
-    reader.objects("points", [&](JsonReader& r) {
-        spec.lightProfiles.resize(spec.lights.size() + 1);
-        spec.lights.emplace_back(readPoint(r, spec.lightProfiles.back()));
-    });
-    reader.objects("spots", [&](JsonReader& r) {
-        spec.lightProfiles.resize(spec.lights.size() + 1);
-        spec.lights.emplace_back(readSpot(r, spec.lightProfiles.back()));
-    });
-    reader.objects("rects", [&](JsonReader& r) { spec.lights.emplace_back(readRect(r)); });
+    // The files of a light have its place in lists of their own.
+    std::string profile;
+    LightImageFile image;
+    const auto add = [&](LightDesc const& light) {
+        spec.lights.push_back(light);
+        spec.lightProfiles.resize(spec.lights.size()), spec.lightImages.resize(spec.lights.size());
+        spec.lightProfiles.back() = std::exchange(profile, {});
+        spec.lightImages.back() = std::exchange(image, {});
+    };
+    reader.objects("suns", [&](JsonReader& r) { add(readSun(r, image)); });
+    reader.objects("points", [&](JsonReader& r) { add(readPoint(r, profile, image)); });
+    reader.objects("spots", [&](JsonReader& r) { add(readSpot(r, profile, image)); });
+    reader.objects("rects", [&](JsonReader& r) { add(readRect(r, image)); });
     reader.objects("discs", [&](JsonReader& r) { spec.lights.emplace_back(readDisc(r)); });
     reader.objects("tubes", [&](JsonReader& r) { spec.lights.emplace_back(readTube(r)); });
-    spec.lightProfiles.resize(spec.lights.size());
+    spec.lightProfiles.resize(spec.lights.size()), spec.lightImages.resize(spec.lights.size());
 }
 
 Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, std::string name) {

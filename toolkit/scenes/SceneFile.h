@@ -9,6 +9,7 @@
 
 #include "toolkit/json/JsonReader.h"
 #include "toolkit/scenes/SceneGrids.h"
+#include "toolkit/scenes/SceneLights.h"
 #include "toolkit/scenes/SceneProbes.h"
 #include "toolkit/scenes/SceneRaster.h"
 
@@ -64,6 +65,7 @@ struct SceneSpec {
     uint32_t animation = 0;                 ///< index in the file
     std::vector<LightDesc> lights;
     std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
+    std::vector<LightImageFile> lightImages; ///< of each light; without a file: none
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
     std::vector<Layers> copyLayers;          ///< of each copy

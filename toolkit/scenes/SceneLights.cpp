@@ -87,15 +87,23 @@ void readPlace(JsonReader& reader, L& light) {
     readShared(reader, light);
 }
 
-/// Returns whether the light has one.
+void readCookie(JsonReader& reader, LightImageFile& image, LightImageShape shape) {
+    std::string file;
+    reader.read("cookie", file);
+    image = { file, shape };
+}
+
+/// Returns whether the light has a profile or a cookie.
 template <class L>
-bool readProfile(JsonReader& reader, L& light, std::string& profile) {
+bool readProfile(JsonReader& reader, L& light, std::string& profile, LightImageFile& image, LightImageShape shape) {
     reader.read("profile", profile);
-    if (!profile.empty())
+    readCookie(reader, image, shape);
+    const bool isTurned = !profile.empty() || !image.file.empty();
+    if (isTurned)
         reader.read("up", light.upWorld);
     else if (reader.has("up"))
-        reader.complain("up", "belongs to 'profile'");
-    return !profile.empty();
+        reader.complain("up", "belongs to 'profile' or 'cookie'");
+    return isTurned;
 }
 
 template <class AreaLight>
@@ -124,7 +132,7 @@ void readBits(JsonReader& reader, const char* name, uint8_t& bits) {
 
 void readLightChannels(JsonReader& reader, LightChannels& channels) { readBits(reader, "channels", channels); }
 
-SunLight readSun(JsonReader& reader) {
+SunLight readSun(JsonReader& reader, LightImageFile& image) {
     SunLight sun;
     readDirection(reader, sun.directionWorld);
     reader.read("lux", sun.illuminance.value, 0, kBrightestLight);
@@ -135,26 +143,35 @@ SunLight readSun(JsonReader& reader) {
         reader.read(name, *value, option.least, option.most);
     }
     reader.read("showsDisc", sun.showsDisc);
+    readCookie(reader, image, LightImageShape::Tiled);
+    if (!image.file.empty()) {
+        reader.read("up", sun.upWorld);
+        reader.read("cookieMeters", sun.cookieMeters, 1e-3, 1e9);
+        reader.read("cookieOffset", sun.cookieOffsetMeters);
+    }
     readShared(reader, sun);
     return sun;
 }
 
-PointLight readPoint(JsonReader& reader, std::string& profile) {
+PointLight readPoint(JsonReader& reader, std::string& profile, LightImageFile& image) {
     PointLight light;
     readPlace(reader, light);
-    if (readProfile(reader, light, profile))
+    if (readProfile(reader, light, profile, image, LightImageShape::Octahedron))
         readDirection(reader, light.directionWorld);
     else if (reader.has("direction"))
-        reader.complain("direction", "belongs to 'profile'");
+        reader.complain("direction", "belongs to 'profile' or 'cookie'");
+    bool isCube = false;
+    reader.read("cookieIsCube", isCube);
+    if (isCube) image.shape = LightImageShape::Cube;
     readIntensity(reader, light.intensity, pointIntensity);
     return light;
 }
 
-SpotLight readSpot(JsonReader& reader, std::string& profile) {
+SpotLight readSpot(JsonReader& reader, std::string& profile, LightImageFile& image) {
     SpotLight light;
     readPlace(reader, light);
     readDirection(reader, light.directionWorld);
-    readProfile(reader, light, profile);
+    readProfile(reader, light, profile, image, LightImageShape::Projected);
     double inner = 20, outer = 35;
     reader.read("innerDegrees", inner, 0, 89);
     reader.read("outerDegrees", outer, inner + 0.1, 90);
@@ -175,8 +192,11 @@ SpotLight readSpot(JsonReader& reader, std::string& profile) {
     return light;
 }
 
-RectLight readRect(JsonReader& reader) {
+RectLight readRect(JsonReader& reader, LightImageFile& image) {
     RectLight light;
+    std::string file;
+    reader.read("image", file);
+    image = { file, LightImageShape::Emitted };
     readArea(reader, light);
     reader.read("up", light.upWorld);
     reader.read("width", light.widthMeters, 0, kFarthestRange);

@@ -8,15 +8,23 @@
 
 #include <filament_core/Light.h>
 
+#include <filesystem>
 #include <string>
 
 namespace filament_core::tools {
 
-SunLight readSun(JsonReader& reader);
+/// The image of a light.
+struct LightImageFile {
+    std::filesystem::path file{}; ///< as the scene names it; empty: none
+    LightImageShape shape = LightImageShape::Projected;
+    friend bool operator==(LightImageFile const&, LightImageFile const&) = default;
+};
+
+SunLight readSun(JsonReader& reader, LightImageFile& image);
 /// `profile`: the file of the light's profile, as the scene names it; empty: none.
-PointLight readPoint(JsonReader& reader, std::string& profile);
-SpotLight readSpot(JsonReader& reader, std::string& profile);
-RectLight readRect(JsonReader& reader);
+PointLight readPoint(JsonReader& reader, std::string& profile, LightImageFile& image);
+SpotLight readSpot(JsonReader& reader, std::string& profile, LightImageFile& image);
+RectLight readRect(JsonReader& reader, LightImageFile& image);
 DiscLight readDisc(JsonReader& reader);
 TubeLight readTube(JsonReader& reader);
 
