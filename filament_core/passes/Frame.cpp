@@ -52,6 +52,7 @@ ShadedLights lightsOf(prepare::FramePacket const& packet) {
              .hasProfiles = !packet.mainView().profiles.empty(),
              .imageTerms = packet.mainView().images.terms,
              .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows),
+             .hasAreaShadows = packet.demand.needs(prepare::Effect::AreaShadows),
              .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows),
              .probeTerms = probeTermsOf(packet) };
 }

@@ -55,7 +55,7 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              lights.hasProfiles ? 1u : 0u,
              lights.imageTerms,
              lights.hasColoredShadows ? 1u : 0u,
-             static_cast<uint32_t>(quality.shadows),
+             static_cast<uint32_t>(quality.shadows) + (lights.hasAreaShadows ? shader::kShadowsOfShapes : 0u),
              0u, // withTransparency()
              screen.hasMipBias ? 1u : 0u,
              lights.probeTerms };
@@ -114,12 +114,17 @@ ShadingKey withoutShadows(ShadingKey key) {
 }
 
 ShadowFilter shadowFilterOf(ShadingKey key) {
-    return static_cast<ShadowFilter>((key & maskOf(shader::kQualityShadowFilter)) >>
-                                     shiftOf(shader::kQualityShadowFilter));
+    const auto choice = static_cast<uint32_t>((key & maskOf(shader::kQualityShadowFilter)) >>
+                                              shiftOf(shader::kQualityShadowFilter));
+    return static_cast<ShadowFilter>(choice % shader::kShadowsOfShapes);
 }
 
 ShadingKey withoutLightList(ShadingKey key) {
-    return key & ~(maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles));
+    const ShadingKey filter = ShadingKey{ static_cast<uint32_t>(shadowFilterOf(key)) }
+                              << shiftOf(shader::kQualityShadowFilter);
+    return (key & ~(maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles) |
+                    maskOf(shader::kQualityShadowFilter))) |
+           filter;
 }
 
 std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key) {

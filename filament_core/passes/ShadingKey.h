@@ -24,6 +24,7 @@ struct ShadedLights {
     bool hasProfiles = false;
     uint8_t imageTerms = 0;         ///< shader::LightImageTerms
     bool hasColoredShadows = false; ///< some shadow map has three channels
+    bool hasAreaShadows = false;    ///< some is read in the shape of its light
     bool hasContactShadows = false;
     uint8_t probeTerms = 0; ///< shader::ProbeTerms
 };

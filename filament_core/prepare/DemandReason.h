@@ -23,6 +23,7 @@ enum class DemandReason : uint8_t {
     BackgroundVisible,   ///< a sky is there
     ShadowsVisible,      ///< `count` maps are read; `others` of them are drawn in this frame; `leftOut` do not fit
     ShadowsColored,      ///< in `count` maps something transmits light, in `others` nothing does
+    ShadowsOfShapes,     ///< `count` maps are read in the shape of their light, `others` are not
     DiscsInView,         ///< `count` discs or halos of suns are in view, `others` are not
     DepthRead,           ///< by `count` effects
     PrepassEnabled,      ///< by Quality
@@ -72,6 +73,8 @@ enum class DemandReason : uint8_t {
     NoReceiver,        ///< there is such light, but no surface in view on which shadows fall
     NoCaster,          ///< nothing that casts lies in any of `count` maps
     NoTransmission,    ///< no light passes through what lies in any of `count` maps
+    NoDepths,          ///< maps hold moments instead
+    NoAreaCasts,       ///< none of `others` maps is that of an area
     DepthUnread,       ///< no effect needs it
     NoIndirectLight,   ///< none is seen
     NoOpaqueSurface,   ///< in view

@@ -73,6 +73,14 @@ EffectDemand demandOfColoredShadows(DemandInput const& input) {
     return { true, R::ShadowsColored, counts.coloredMaps, counts.maps - counts.coloredMaps };
 }
 
+EffectDemand demandOfAreaShadows(DemandInput const& input) {
+    ShadowCounts const& counts = input.shadows;
+    if (!counts.isOn || !counts.isShapeOn) return { .reason = R::SwitchedOff };
+    if (!counts.hasDepths) return { .reason = R::NoDepths };
+    if (counts.areaMaps == 0) return { false, R::NoAreaCasts, 0, counts.maps };
+    return { true, R::ShadowsOfShapes, counts.areaMaps, counts.maps - counts.areaMaps };
+}
+
 EffectDemand demandOfIndirectLight(DemandInput const& input) {
     EffectDemand demand = demandOfLights(input.hasIndirectLight ? 1 : 0, 0, input.counts.litDraws);
     if (demand.isNeeded) demand.reason = R::EnvironmentLights;
@@ -386,6 +394,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::LightImages, "light images", Stage::Lighting, demandOfImages },
         { Effect::Shadows, "shadows", Stage::Lighting, demandOfShadows, "shadows=off" },
         { Effect::ColoredShadows, "coloured shadows", Stage::Lighting, demandOfColoredShadows, "coloredShadows=off" },
+        { Effect::AreaShadows, "area shadows", Stage::Lighting, demandOfAreaShadows, "areaShadows=center" },
         { Effect::IndirectLight, "indirect light", Stage::Lighting, demandOfIndirectLight },
         { Effect::ReflectionProbes, "reflection probes", Stage::Lighting, demandOfProbes, "reflectionProbes=0" },
         { Effect::IrradianceGrids, "irradiance grids", Stage::Lighting, demandOfGrids },

@@ -78,6 +78,8 @@ public:
         PreparedShadows out;
         mCounts.isOn = true;
         mCounts.isColorOn = mSettings.quality.coloredShadows;
+        mCounts.isShapeOn = mSettings.quality.areaShadows == AreaShadows::Shape;
+        mCounts.hasDepths = momentsFor(mSettings.quality.shadows) == ShadowMoments::None;
         mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mSettings.quality.shadows);
         if (mSettings.lightsFog) addFog(mReceivers, mSpace, mSettings.effects.fog.volumetricMeters);
         mCounts.receivers = mReceivers.count;
@@ -225,6 +227,7 @@ private:
                               placed.tiles[i] },
                             candidate.channels };
             if (candidate.channels > 1) ++mCounts.coloredMaps;
+            if (mScene.lights.records[casters[candidate.caster].record].isArea()) ++mCounts.areaMaps;
             if (!out.packet.keepsAtlas || !isHeld(maps[count].held)) {
                 views[out.packet.drawn] = candidate.prepared;
                 if (mSettings.cullsCasters && candidate.channels == 1)

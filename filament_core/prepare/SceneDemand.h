@@ -27,6 +27,7 @@ enum class Effect : uint8_t {
     LightImages,    ///< those that project or show an image; the brightest sun may be one
     Shadows,        ///< of suns, points, spots and areas
     ColoredShadows, ///< of what transmits light
+    AreaShadows,    ///< of the shape of areas, not of their centre
     IndirectLight,
     ReflectionProbes, ///< boxes of light, in place of the environment
     IrradianceGrids,  ///< diffuse light by the place of renderables, in place of the environment's

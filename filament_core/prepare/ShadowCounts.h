@@ -15,6 +15,9 @@ struct ShadowCounts {
     uint32_t mapsDrawn = 0;   ///< of these, drawn in it
     bool isColorOn = false;   ///< Quality::coloredShadows
     uint32_t coloredMaps = 0; ///< of `maps`, those with a channel for each colour
+    bool isShapeOn = false;   ///< Quality::areaShadows
+    bool hasDepths = true;    ///< maps hold depths, not moments
+    uint32_t areaMaps = 0;    ///< of `maps`, those of areas
     uint32_t mapsWithoutCasters = 0;
     uint32_t mapsOverBudget = 0; ///< beyond the atlas or kMaxShadowMaps
     friend bool operator==(ShadowCounts const&, ShadowCounts const&) = default;

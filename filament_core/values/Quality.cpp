@@ -57,7 +57,8 @@ std::vector<Option> shadowRows() {
              option("shadowBlurTexels", &Q::shadowBlurTexels, { 0, 16, {}, kBlurs },
                     "Half the width of the blur of `vsm` and `evsm`."),
              option("coloredShadows", &Q::coloredShadows, "Transmissive surfaces cast coloured shadows."),
-             option("areaLights", &Q::areaLights, "Highlights of rectangles, discs and tubes.") };
+             option("areaLights", &Q::areaLights, "Highlights of rectangles, discs and tubes."),
+             option("areaShadows", &Q::areaShadows, "Shadows of rectangles, discs and tubes.") };
 }
 
 std::vector<Option> orderRows() {
@@ -110,6 +111,7 @@ Quality referencePreset() {
     quality.shadowCascades = 4;
     quality.shadowAtlasMegabytes = 256;
     quality.coloredShadows = true;
+    quality.areaShadows = AreaShadows::Shape;
     return quality;
 }
 

@@ -70,7 +70,7 @@ ShadowReceiver shadowReceiver(int map, highp vec3 toLight) {
 
 // Cells are wider than texels: the narrowest tent does.
 highp float shadowOf(ShadowReceiver receiver) {
-    return quality_shadowFilter >= kShadowVsm ? shadowOfBlurred(receiver) : shadowOfTent(receiver, 1);
+    return shadowFilter() >= kShadowVsm ? shadowOfBlurred(receiver) : shadowOfTent(receiver, 1);
 }
 
 // The mean over a slice, of points that divide it evenly: the edges of shafts cross many slices, and lamps do not. One

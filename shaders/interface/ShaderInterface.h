@@ -326,8 +326,12 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
                             ///< have this one
     kQualityReflectionProbes = 1022, ///< 0: no reflection probe lights what is visible; else ProbeTerms
     kQualityLightImages = 1023, ///< LightImageTerms
-    kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
+    kQualityShadowFilter = 1011, ///< ShadowFilter, or kShadowsOfShapes more; read by variants with
+                                 ///< kVariantShadowReceiver only
 };
+
+/// Of kQualityShadowFilter, added to filters that compare depths: areas have the shadows of their shape.
+inline constexpr uint32_t kShadowsOfShapes = 9;
 
 /// Of kQualityDiffuseIrradiance, for objects with an IrradianceField.
 inline constexpr uint32_t kIrradianceOfField = 3;

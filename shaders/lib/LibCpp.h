@@ -31,6 +31,7 @@ namespace {
 // the others in alphabetical order: the lobes that extend brdf.glsl come after it
 #include "shaders/lib/aa.glsl"
 #include "shaders/lib/ao.glsl"
+#include "shaders/lib/area_shadows.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/brdf_anisotropic.glsl"
 #include "shaders/lib/cloth.glsl"

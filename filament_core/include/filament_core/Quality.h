@@ -188,6 +188,18 @@ struct EnumNames<AreaLightTerm> {
     static constexpr std::array<std::string_view, 2> values{ "ltc", "representativePoint" };
 };
 
+/// What shadow maps know of the shape of rectangles, discs and tubes. The maps themselves are the same.
+enum class AreaShadows : uint8_t {
+    Center, ///< those of a point at the centre, by Quality::shadows
+    /// How much of the shape is seen past what the map holds, whatever filter Quality::shadows selects for other
+    /// lights: wide along a tube and narrow across it. Vsm and Evsm have no depths to find that from, and use Center.
+    Shape,
+};
+template <>
+struct EnumNames<AreaShadows> {
+    static constexpr std::array<std::string_view, 2> values{ "center", "shape" };
+};
+
 /// What is seen through materials with `refractionMode : screenspace`.
 enum class RefractionSource : uint8_t {
     Screen,      ///< the opaque scene colour, and the environment where a ray leaves the screen
@@ -323,6 +335,7 @@ struct Quality {
     /// instead of one where something does. Off: it stops all light.
     bool coloredShadows = false;
     AreaLightTerm areaLights = AreaLightTerm::Ltc;
+    AreaShadows areaShadows = AreaShadows::Center;
     RefractionSource refraction = RefractionSource::Screen;
     /// Copies of the scene colour for refraction, [1, 8]. 1: refractive objects show opaque ones. n: they
     /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.

@@ -20,6 +20,9 @@ highp float widthOfPixel(highp vec3 point) {
 
 #include "shaders/material/surface/light_list.glsl"
 #include "shaders/material/surface/listed_light.glsl"
+#if defined(RECEIVES_SHADOWS)
+#include "shaders/material/surface/area_shadows.glsl"
+#endif
 
 highp vec3 areaLight(Surface surface, AreaLight area) {
     highp vec3 reflected;
@@ -80,7 +83,14 @@ highp vec3 punctualLight(Surface surface, ListedLight listed) {
     if (attenuation > 0.0) { // in range, within the cone, and the profile is not dark in this direction
         highp vec3 visibility = vec3(1.0);
 #if defined(RECEIVES_SHADOWS)
-        if (variant_shadows != 0) visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
+        if (variant_shadows != 0) {
+            highp vec2 maps = lightBuffer.lights[index].offset.yz;
+            if (quality_shadowFilter >= kShadowsOfShapes && isAnArea) {
+                visibility = areaVisibility(areaLightAt(index, toLight, colorIntensity), maps);
+            } else {
+                visibility = listedVisibility(maps, isSun, toLight);
+            }
+        }
 #endif
         if (quality_contactShadows != 0) {
             bool isAsked = (int(lightBuffer.lights[index].offset.z) & kContactShadowBit) != 0 && isLit(visibility);

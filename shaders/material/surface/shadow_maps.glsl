@@ -8,10 +8,17 @@
 // the caster fills as many texels as it stops of that colour (McGuire and Enderton 2011, "Colored Stochastic Shadow
 // Maps").
 
+#include "shaders/lib/area_shadows.glsl"
+
 const int kShadowVsm = 7;
 const int kShadowEvsm = 8;
+const int kShadowsOfShapes = 9; // added to filters that compare: areas have shadows of their shape (area_shadows.glsl)
 const highp float kFilterReach = 3.0; // texels around a point that the widest filter of fixed width reads
 const highp float kLastMomentLevel = 4.0;
+
+int shadowFilter() {
+    return quality_shadowFilter >= kShadowsOfShapes ? quality_shadowFilter - kShadowsOfShapes : quality_shadowFilter;
+}
 
 // A point in the space of a map.
 struct ShadowReceiver {
@@ -95,7 +102,7 @@ highp float shadowOfBlurred(ShadowReceiver receiver) {
     highp float reach = (blur + 2.0 * width) * (abs(slope.x) + abs(slope.y));
     depth = clamp(depth, -1.0, max(1.0 - reach, -1.0)); // what is cut off at the far end would have been farther
     highp float spread = dot(slope, slope) * (blur * (blur + 2.0) + 1.5 * width * width) * (1.0 / 6.0);
-    return quality_shadowFilter == kShadowVsm ? shadowOfMoments(moments.xy, depth)
+    return shadowFilter() == kShadowVsm ? shadowOfMoments(moments.xy, depth)
                                               : shadowOfWarpedMoments(moments, depth, spread);
 }
 
@@ -140,19 +147,16 @@ highp vec3 visibilityThrough(int first, int end, bool isSun, highp vec3 toLight)
     return light;
 }
 
-// The map of a point, spot or area that holds a direction; below 0: nothing casts there. `maps`: PunctualLight::offset.yz.
+// The map of a face of a light that takes a cube; below 0: nothing casts there. `maps`: PunctualLight::offset.yz.
+int punctualMapOfFace(highp vec2 maps, int face) {
+    int bits = int(maps.y) & 63;
+    return (bits >> face & 1) == 1 ? int(maps.x) - 1 + bitCount(bits & ((1 << face) - 1)) : -1;
+}
+
+// The map of a point, spot or area that holds a direction; below 0: nothing casts there.
 int punctualMap(highp vec2 maps, highp vec3 fromLight) {
-    int map = int(maps.x) - 1, bits = int(maps.y) & 127;
-    if (map >= 0 && bits >= 64) {
-        highp vec3 size = abs(fromLight);
-        int face = fromLight.z < 0.0 ? 5 : 4;
-        if (size.x >= size.y && size.x >= size.z) {
-            face = fromLight.x < 0.0 ? 1 : 0;
-        } else if (size.y >= size.z) {
-            face = fromLight.y < 0.0 ? 3 : 2;
-        }
-        map = (bits >> face & 1) == 1 ? map + bitCount(bits & ((1 << face) - 1)) : -1;
-    }
+    int map = int(maps.x) - 1;
+    if (map >= 0 && (int(maps.y) & 64) != 0) map = punctualMapOfFace(maps, cubeFace(fromLight));
     return map;
 }
 

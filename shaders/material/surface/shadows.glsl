@@ -109,17 +109,18 @@ highp float shadowOfPenumbra(ShadowReceiver receiver) {
 }
 
 highp float shadowOf(ShadowReceiver receiver) {
+    int chosen = shadowFilter();
     highp float light;
-    if (quality_shadowFilter >= kShadowVsm) {
+    if (chosen >= kShadowVsm) {
         light = shadowOfBlurred(receiver);
-    } else if (quality_shadowFilter == kShadowHard) {
+    } else if (chosen == kShadowHard) {
         light = shadowOfTexel(receiver);
-    } else if (quality_shadowFilter == kShadowPoisson) {
+    } else if (chosen == kShadowPoisson) {
         light = shadowOfDisc(receiver, kPoissonRadius, 16);
-    } else if (quality_shadowFilter == kShadowPcss) {
+    } else if (chosen == kShadowPcss) {
         light = shadowOfPenumbra(receiver);
     } else {
-        int pairs = quality_shadowFilter == kShadowPcf2 ? 1 : quality_shadowFilter == kShadowPcf3 ? 2 : 3;
+        int pairs = chosen == kShadowPcf2 ? 1 : chosen == kShadowPcf3 ? 2 : 3;
         light = shadowOfTent(receiver, pairs);
     }
     return light;

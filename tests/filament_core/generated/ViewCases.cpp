@@ -127,7 +127,11 @@ std::vector<ViewFactor> factorsOfLight() {
         { "shadows",
           { { "off", [](ViewCase& c) { c.view.quality.shadows = ShadowFilter::Off; } },
             { "pcf3", [](ViewCase&) {} },
-            { "pcss", [](ViewCase& c) { c.view.quality.shadows = ShadowFilter::Pcss; } },
+            { "pcss",
+              [](ViewCase& c) {
+                  c.view.quality.shadows = ShadowFilter::Pcss;
+                  c.view.quality.areaShadows = AreaShadows::Shape;
+              } },
             { "evsm",
               [](ViewCase& c) {
                   c.view.quality.shadows = ShadowFilter::Evsm;

@@ -127,6 +127,18 @@ TEST(ShadingKey, MipBiasIsAKeyOfAllSurfacesAndOfTheirDepths) {
     EXPECT_EQ(shadingKey({ .mipBias = MipBias::Off }), shadingKey({})) << "a number, not a program";
 }
 
+TEST(ShadingKey, ShadowsOfShapesAreAKeyOnlyWhereAMapIsReadSo) {
+    const Quality shape{ .shadows = ShadowFilter::Pcss, .areaShadows = AreaShadows::Shape };
+    const Quality center{ .shadows = ShadowFilter::Pcss };
+    EXPECT_EQ(shadingKey(shape, {}, kAreas), shadingKey(center, {}, kAreas)) << "no map of an area";
+    const ShadingKey key = shadingKey(shape, {}, { .hasAreas = true, .hasAreaShadows = true });
+    EXPECT_EQ(bitsOf(key, shader::kQualityShadowFilter),
+              static_cast<uint32_t>(ShadowFilter::Pcss) + shader::kShadowsOfShapes);
+    EXPECT_EQ(shadowFilterOf(key), ShadowFilter::Pcss);
+    EXPECT_EQ(withoutLightList(key), shadingKey(center)) << "only lights of the list are areas";
+    EXPECT_EQ(withoutShadows(key), shadingKey({}, {}, kAreas));
+}
+
 TEST(ShadingKey, ColoursOfShadowsAreAKeyOnlyWhereAMapHasThem) {
     const Quality colored{ .coloredShadows = true };
     EXPECT_EQ(shadingKey(colored), shadingKey({})) << "no map with colours, no program of its own";

@@ -2,10 +2,12 @@
 // The views of shadow maps: everything that must be in a map is in it, and maps hold still.
 #include "filament_core/prepare/FitShadows.h"
 
+#include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace filament_core::prepare {
@@ -184,6 +186,24 @@ TEST(FitShadows, SpotsAndCubesSeeEveryDirectionInWhichTheyShine) {
             isSeen = true;
         }
         EXPECT_TRUE(isSeen) << i;
+    }
+}
+
+TEST(FitShadows, CubesHaveTheFacesThatShadersLookUp) {
+    const scene::LightRecord light{ .type = scene::LightRecord::Type::Point };
+    Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const float3 along(direction(random));
+        const int face = shader::lib::cubeFace(along);
+        const float3 size = glm::abs(along), turned = shader::lib::inCubeFace(along, face);
+        EXPECT_EQ(turned.z, std::max({ size.x, size.y, size.z })) << face << ": the face ahead";
+        EXPECT_EQ(shader::lib::fromCubeFace(turned, face), along) << face;
+        // From -1 to 1 over the map.
+        const float4x4 map = atlasFromWorld(fitPunctual(light, static_cast<uint32_t>(face)), {}, -1, -1, 2);
+        const float4 at = map * float4(along, 1);
+        const float2 expected = float2(turned) / (turned.z * shader::lib::kFaceTangent);
+        EXPECT_NEAR(at.w, turned.z, 1e-6f) << face;
+        EXPECT_LT(glm::distance(float2(at.x, at.y) / at.w, expected), 1e-5f) << face;
     }
 }
 

@@ -97,6 +97,23 @@ TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
     EXPECT_FALSE(demand().isNeeded);
 }
 
+TEST(SceneDemand, NeedsShadowsOfShapesOnlyWhereAMapIsThatOfAnAreaAndHoldsDepths) {
+    ShadowCounts shadows{ .isOn = true, .lights = 1, .receivers = 1, .maps = 3 };
+    const auto demand = [&] { return demandFor({ .shadows = shadows }).of(Effect::AreaShadows); };
+    EXPECT_EQ(describe(Effect::AreaShadows, demand()), "switched off: areaShadows=center");
+    shadows.isShapeOn = true;
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::AreaShadows, demand()), "none of 3 maps is that of an area");
+    shadows.areaMaps = 2;
+    EXPECT_TRUE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::AreaShadows, demand()), "2 of 3 maps are read in the shape of their light");
+    shadows.hasDepths = false;
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::AreaShadows, demand()), "maps of vsm and evsm hold no depths");
+    shadows.isOn = false;
+    EXPECT_FALSE(demand().isNeeded);
+}
+
 TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
     Fog fog{ .enabled = true };
     const auto demand = [&] { return demandFor({ .effects = { .fog = fog } }).of(Effect::Fog); };

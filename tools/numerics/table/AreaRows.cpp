@@ -112,12 +112,44 @@ std::vector<Row> profileRows() {
     };
 }
 
+Row shadowRow(std::string_view function, Call call, std::array<Argument, 4> s, Interval range) {
+    return { .file = "area_shadows",
+             .function = function,
+             .call = call,
+             .s = s,
+             .range = range,
+             .fp32Only = "16 bits cannot count the texels of a map" };
+}
+
+std::vector<Row> shadowRows() {
+    const Argument along = direction("direction");
+    const std::string_view kJump = "jumps from face to face";
+    return {
+        withoutError(
+                withVectors(shadowRow("cubeFace(vec3)", NUMERICS_CALL(float(cubeFace(u))), {}, { 0, 5 }), along, {}),
+                kJump),
+        withoutError(withVectors(shadowRow("inCubeFace(vec3, int)", NUMERICS_CALL(inCubeFace(u, cubeFace(u))), {},
+                                           { -1.001, 1.001 }),
+                                 along, {}),
+                     kJump),
+        withoutError(withVectors(shadowRow("fromCubeFace(vec3, int)", NUMERICS_CALL(fromCubeFace(u, cubeFace(u))), {},
+                                           { -1.001, 1.001 }),
+                                 along, {}),
+                     kJump),
+        limited(withVectors(shadowRow("hiddenPoint(vec3, vec3, float)", NUMERICS_CALL(hiddenPoint(v * 2, u, s.x)),
+                                      { number("fraction", 0, 0.9) }, { -32.1, 32.1 }),
+                            direction("occluder"), direction("point")),
+                absolute(2e-5, 0, "absolute: a difference up to 30 times its terms")),
+    };
+}
+
 } // namespace
 
 std::vector<Row> areaRows() {
     std::vector<Row> rows = edgeRows();
     for (Row const& row : ltcRows()) rows.push_back(row);
     for (Row const& row : profileRows()) rows.push_back(row);
+    for (Row const& row : shadowRows()) rows.push_back(row);
     rows.push_back({ .file = "light",
                      .function = "rangeWindow(vec3, float)",
                      .call = NUMERICS_CALL(rangeWindow(u, s.x)),

@@ -99,7 +99,7 @@ std::vector<Row> detailRows();  ///< iridescence, normals, occlusion, parallax, 
 std::vector<Row> layerRows();   ///< anisotropic GGX, coat, sheen
 std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl
-std::vector<Row> areaRows();     ///< ltc, profiles, and the range of areas of light
+std::vector<Row> areaRows();     ///< ltc, area_shadows, profiles, and the range of areas of light
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
 std::vector<Row> screenRows();   ///< screen_occlusion
 std::vector<Row> temporalRows();

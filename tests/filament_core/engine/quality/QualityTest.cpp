@@ -332,7 +332,7 @@ bool isOfTheView(std::string_view name) {
         return true;
     return name == "textureFilter" || name == "reflectionProbes" || name == "depthRange" || name == "cameraRelative" ||
            name == "toneMapping" || name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
-           name == "coloredShadows" || name.starts_with("shadow");
+           name == "areaShadows" || name == "coloredShadows" || name.starts_with("shadow");
 }
 
 /// Drivers may round half floats differently: a difference of one step at most, not the same bits.
