@@ -6,6 +6,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/tables/DfgTable.h"
 #include "filament_core/assets/tables/ToneTable.h"
+#include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/materials/TextureParameters.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -144,6 +145,9 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     engine.dispatches.destroy(engine.pending);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     if (engine.drawingSplats) engine.destroy(std::exchange(engine.drawingSplats, {}));
+    for (Scene::Impl const* scene : engine.scenes) engine::destroyLightShapes(engine, scene->data);
+    engine.destroy(std::exchange(engine.lightShapeVertices, {}));
+    engine.destroy(std::exchange(engine.lightShapeIndices, {}));
     for (MaterialInstance& instance : engine.fadingLevels)
         if (instance) engine.destroy(std::exchange(instance, {}));
     for (MaterialInstance& instance : engine.drawingDebug)

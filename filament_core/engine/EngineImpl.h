@@ -311,10 +311,12 @@ struct Engine::Impl {
     bool aUseEnded = false;                 ///< something was destroyed, removed or replaced since
 
     engine::Defaults defaults;
-    MaterialInstance drawingMotion;                  ///< none: no frame needed motion vectors
-    std::array<MaterialInstance, 2> fadingLevels;    ///< by whether both faces are drawn; none: none faded yet
-    std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
-    MaterialInstance drawingSplats;                  ///< none: no scene had splats
+    MaterialInstance drawingMotion;               ///< none: no frame needed motion vectors
+    std::array<MaterialInstance, 2> fadingLevels; ///< by whether both faces are drawn; none: none faded yet
+    std::array<MaterialInstance, 2> drawingDebug; ///< by whether surfaces hide it; none: no view had a DebugDraw
+    MaterialInstance drawingSplats;               ///< none: no scene had splats
+    VertexBuffer lightShapeVertices;              ///< none: no light was drawn
+    IndexBuffer lightShapeIndices;
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t rasterChanges = 0;                      ///< of instances; they change the order in which scenes draw
     uint64_t instanceChanges = 0;                    ///< by the app: parameters, textures, raster states

@@ -104,7 +104,8 @@ LightRecord areaRecord(LightRecord::Type type, AreaLight const& light) {
              .intensity = nits > 0 && std::isfinite(nits) ? nits : 0.0f,
              .rangeMeters = light.rangeMeters,
              .castsShadows = light.castsShadows,
-             .channels = light.lightChannels };
+             .channels = light.lightChannels,
+             .isVisible = light.isVisible };
 }
 
 float2 halfExtentOf(float x, float y) {

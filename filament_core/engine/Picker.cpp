@@ -7,6 +7,7 @@
 #include "filament_core/passes/PickPass.h"
 #include "filament_core/scene/SceneNodes.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -72,6 +73,11 @@ Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view
     pending.candidates.reserve(renderables.size());
     for (const uint32_t at : renderables) {
         const Renderable renderable = scene.renderables.index.handleAt(at);
+        const auto shape = std::ranges::find(scene.lightShapes, renderable, &scene::LightShape::renderable);
+        if (shape != scene.lightShapes.end()) {
+            pending.candidates.push_back({ .light = shape->light, .node = scene::nodeOf(scene, shape->light) });
+            continue;
+        }
         pending.candidates.push_back({ .renderable = renderable,
                                        .node = scene::nodeOf(scene, renderable),
                                        .primitive = prepare::primitiveOf(scene, renderable) });

@@ -114,6 +114,7 @@ Light Scene::add(LightDesc const& desc, Node node) {
     const PublicCall call(mImpl, "Scene::add(LightDesc, Node)");
     const Light light = scene::addLight(mImpl->changed(), engine::recordOf(mImpl->engine, desc));
     if (node) scene::attach(mImpl->data, light, node);
+    engine::updateLightShape(*mImpl, light);
     return light;
 }
 
@@ -150,6 +151,7 @@ void Scene::remove(Renderable renderable) {
 void Scene::remove(Light light) {
     const PublicCall call(mImpl, "Scene::remove(Light)");
     scene::removeLight(mImpl->changedUses(), light);
+    engine::placeLightShapes(mImpl->engine, mImpl->data);
 }
 
 void Scene::setLightChannels(Renderable renderable, LightChannels channels) {
@@ -254,7 +256,7 @@ Box Scene::bounds(Renderable renderable) const {
 }
 uint32_t Scene::renderableCount() const {
     const PublicCall call(mImpl, "Scene::renderableCount()");
-    return mImpl->data.renderables.count();
+    return mImpl->data.renderables.count() - static_cast<uint32_t>(mImpl->data.lightShapes.size());
 }
 uint32_t Scene::lightCount() const {
     const PublicCall call(mImpl, "Scene::lightCount()");

@@ -87,6 +87,7 @@ void Scene::Impl::followVertices() const {
 void Scene::set(Light light, LightDesc const& desc) {
     const PublicCall call(mImpl, "Scene::set(Light, LightDesc)");
     scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+    engine::updateLightShape(*mImpl, light);
 }
 
 void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {

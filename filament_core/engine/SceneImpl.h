@@ -2,6 +2,7 @@
 /// Scene::Impl: the arrays of a scene and the engine whose handles they came from.
 #pragma once
 
+#include "filament_core/engine/LightShapes.h"
 #include "filament_core/engine/gltf/CopiesOfModels.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
@@ -20,6 +21,7 @@ struct Scene::Impl {
     }
     ~Impl() {
         if (!link.isAlive()) return;
+        engine::destroyLightShapes(engine, data);
         std::erase(engine.scenes, this);
         engine.aUseEnded = true;
     }
@@ -36,6 +38,7 @@ struct Scene::Impl {
             data.renderables.drawables.updateUses();
         }
         prepare::updateTransforms(engine.jobs, data);
+        if (!data.lightShapes.empty()) engine::placeLightShapes(engine, data);
         if (boundsChanges != engine.boundsChanges) followVertices();
         return data;
     }

@@ -73,6 +73,7 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
 void Scene::remove(Node node) {
     const PublicCall call(mImpl, "Scene::remove(Node)");
     for (const uint32_t removed : scene::removeNode(mImpl->changedUses(), node)) mImpl->copies.remove(removed);
+    engine::placeLightShapes(mImpl->engine, mImpl->data);
 }
 
 void Scene::setTransform(Node node, double4x4 const& parentFromNode) {

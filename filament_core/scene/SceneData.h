@@ -38,6 +38,7 @@ struct LightRecord {
     bool castsShadows = true, contactShadows = false;
     uint8_t channels = 1;        ///< bit n: channel n
     bool isTwoSided = false;     ///< rectangles and discs
+    bool isVisible = false;      ///< areas: drawn with their luminance
     float3 sideWorld{ 1, 0, 0 }; ///< of areas: along the first of halfExtent, unit; of tubes the axis
     float2 halfExtent{ 0.0f };   ///< metres: half sides, radii, half length and radius
     /// Of points and spots: the words of shader::kProfileHeaderWords. None: as bright in all directions. The light
@@ -109,6 +110,14 @@ struct SplatRecord {
     std::shared_ptr<const SplatData> data;
 };
 
+/// A light that is drawn, by a renderable that the app has no handle of.
+struct LightShape {
+    Light light;
+    Renderable renderable;
+    filament_core::MaterialInstance instance;
+    double4x4 worldFromShape{ 1.0 };
+};
+
 struct SceneData {
     uint64_t serial = newOwnerSerial();
     Renderables renderables{ ownerTag(serial) };
@@ -119,6 +128,7 @@ struct SceneData {
     NodeContents atNodes;
     Deformations deformations{ ownerTag(serial) };
     std::vector<SplatRecord> splats;           ///< in the order in which they were added
+    std::vector<LightShape> lightShapes;       ///< of lights with LightRecord::isVisible
     ContentVersions const* versions = nullptr; ///< of buffers and textures; null: they never change
     IndirectLightRecord indirectLight;         ///< specular: none means no indirect light
     SkyboxRecord skybox;                       ///< cube: none means no skybox

@@ -57,6 +57,7 @@ Rows areaRows() {
     Rows rows = sharedRows<L>();
     addPlace<L>(rows);
     rows.push_back(option("luminance", &L::luminance, { 0, kBrightest, "cd/m^2" }, "Luminance of the surface."));
+    rows.push_back(option("isVisible", &L::isVisible, "Draws the light itself."));
     return rows;
 }
 

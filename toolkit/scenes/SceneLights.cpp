@@ -112,6 +112,7 @@ void readArea(JsonReader& reader, AreaLight& light) {
     reader.read("nits", light.luminance.value, 0, kBrightestLight);
     reader.read("range", light.rangeMeters, 0, kFarthestRange);
     readShared(reader, light);
+    reader.read("visible", light.isVisible);
     if constexpr (requires { light.isTwoSided; }) {
         readDirection(reader, light.directionWorld);
         reader.read("twoSided", light.isTwoSided);

@@ -99,12 +99,12 @@ struct SpotLight {
 };
 
 // ---- area lights, as bright in every direction: docs/lights-area.md
-//   Shape     they light surfaces, and are themselves invisible: add a mesh with an emissive material to show one.
+//   Shape     they light surfaces; `isVisible` draws them as well.
 //   Units     luminance, or by luminanceFromFlux() the luminous flux of the whole light. A luminance that is not a
 //             number, infinite or negative counts as 0. Sizes are finite and >= 0; without an area there is no light.
 //   Range     at the distance rangeMeters from its centre the light has faded to exactly zero; 0: unlimited.
-//   Shadows   those of a point at the centre, which ShadowFilter::Pcss softens like those of a disc of
-//             the same area. Disable castsShadows on a mesh that visualises the light; it would occlude it.
+//   Shadows   those of a point at the centre, which ShadowFilter::Pcss softens like those of a disc of the same area;
+//             with AreaShadows::Shape those of the shape. The drawn shape casts none.
 //   Nodes     turn and move them; a scale does not change their size.
 
 /// A rectangle around a position. Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly
@@ -120,6 +120,7 @@ struct RectLight {
     float rangeMeters = 0;
     bool isTwoSided = false; ///< also shines against its direction, as bright
     bool castsShadows = true;
+    bool isVisible = false; ///< drawn with its luminance, on the sides that shine
     LightChannels lightChannels = kDefaultLightChannels;
 };
 
@@ -133,6 +134,7 @@ struct DiscLight {
     float rangeMeters = 0;
     bool isTwoSided = false;
     bool castsShadows = true;
+    bool isVisible = false; ///< drawn with its luminance, on the sides that shine
     LightChannels lightChannels = kDefaultLightChannels;
 };
 
@@ -145,6 +147,7 @@ struct TubeLight {
     LinearColor color{ 1.0f };
     float rangeMeters = 0;
     bool castsShadows = true;
+    bool isVisible = false; ///< drawn with its luminance, on the sides that shine
     LightChannels lightChannels = kDefaultLightChannels;
 };
 

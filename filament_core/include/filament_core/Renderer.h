@@ -35,12 +35,13 @@ struct PickTicket {
 
 /// What a pixel of a view shows: the nearest surface at its centre.
 struct PickHit {
-    Renderable renderable{};   ///< none: nothing is drawn there, and the other fields mean nothing
-    Node node{};               ///< that carries the renderable; none: it has a transform of its own
+    Renderable renderable{};   ///< none and no light: nothing is drawn there, and the other fields mean nothing
+    Light light{};             ///< a rectangle, disc or tube that is drawn; then there is no renderable
+    Node node{};               ///< that carries the renderable or the light; none: it has a place of its own
     uint32_t primitive = 0;    ///< which of the node's renderables it is, in the order in which they were added
     double distanceMeters = 0; ///< along the view
     double3 positionWorld{ 0 };
-    explicit operator bool() const { return static_cast<bool>(renderable); }
+    explicit operator bool() const { return static_cast<bool>(renderable) || static_cast<bool>(light); }
 };
 
 struct PassTiming {

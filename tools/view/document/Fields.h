@@ -188,6 +188,7 @@ template <> struct Fields<RectLight> {
         field("heightMeters", &RectLight::heightMeters), field("luminance", &RectLight::luminance),
         field("color", &RectLight::color), field("rangeMeters", &RectLight::rangeMeters),
         field("isTwoSided", &RectLight::isTwoSided), field("castsShadows", &RectLight::castsShadows),
+        field("isVisible", &RectLight::isVisible),
         field("lightChannels", &RectLight::lightChannels) };
     static constexpr size_t others = 1; // image
 };
@@ -198,6 +199,7 @@ template <> struct Fields<DiscLight> {
         field("radiusMeters", &DiscLight::radiusMeters), field("luminance", &DiscLight::luminance),
         field("color", &DiscLight::color), field("rangeMeters", &DiscLight::rangeMeters),
         field("isTwoSided", &DiscLight::isTwoSided), field("castsShadows", &DiscLight::castsShadows),
+        field("isVisible", &DiscLight::isVisible),
         field("lightChannels", &DiscLight::lightChannels) };
     static constexpr size_t others = 0;
 };
@@ -208,6 +210,7 @@ template <> struct Fields<TubeLight> {
         field("radiusMeters", &TubeLight::radiusMeters),
         field("luminance", &TubeLight::luminance), field("color", &TubeLight::color),
         field("rangeMeters", &TubeLight::rangeMeters), field("castsShadows", &TubeLight::castsShadows),
+        field("isVisible", &TubeLight::isVisible),
         field("lightChannels", &TubeLight::lightChannels) };
     static constexpr size_t others = 0;
 };

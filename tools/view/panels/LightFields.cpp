@@ -96,6 +96,7 @@ struct FieldList {
         color(light.color);
         meters("range, m", light.rangeMeters);
         flag("casts shadows", light.castsShadows);
+        flag("visible", light.isVisible);
         channels(light.lightChannels);
     }
 };
