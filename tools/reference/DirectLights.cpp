@@ -36,7 +36,8 @@ DirectLights::Light DirectLights::areaOf(AreaLight const& area, double factor) {
     return { .position = area.positionWorld,
              .intensity = double3(area.color) * (double(area.luminance.value) * factor),
              .inverseSquaredRange = inverseSquare(area.rangeMeters),
-             .castsShadows = area.castsShadows };
+             .castsShadows = area.castsShadows,
+             .isVisible = area.isVisible };
 }
 
 void DirectLights::add(RectLight const& rect, double factor) {
@@ -130,6 +131,44 @@ DirectLights::DirectLights(LightSet const& lights, double factor) {
     for (RectLight const& rect : lights.rects) add(rect, factor);
     for (DiscLight const& disc : lights.discs) add(disc, factor);
     for (TubeLight const& tube : lights.tubes) add(tube, factor);
+    mHasVisible = std::ranges::any_of(mLights, &Light::isVisible);
+}
+
+/// Along a ray to a side that shines; infinite: it meets none.
+double DirectLights::distanceTo(Light const& light, double3 origin, double3 direction) {
+    constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    const double3 from = origin - light.position;
+    if (light.shape == Light::Shape::Tube) { // from outside: the first of two
+        const double3 across = direction - light.axis * glm::dot(direction, light.axis);
+        const double3 offset = from - light.axis * glm::dot(from, light.axis);
+        const double a = glm::dot(across, across), b = glm::dot(offset, across);
+        const double root = b * b - a * (glm::dot(offset, offset) - light.radius * light.radius);
+        if (!(a > 0) || root < 0) return kNowhere;
+        const double distance = (-b - std::sqrt(root)) / a;
+        const double along = glm::dot(from + direction * distance, light.axis);
+        return std::abs(along) <= glm::length(light.halfX) ? distance : kNowhere;
+    }
+    const double facing = -glm::dot(direction, light.axis);
+    if (facing == 0 || (facing < 0 && !light.isTwoSided)) return kNowhere;
+    const double distance = glm::dot(from, light.axis) / facing;
+    const double3 at = from + direction * distance;
+    const double x = glm::dot(at, light.halfX) / glm::dot(light.halfX, light.halfX);
+    const double y = glm::dot(at, light.halfY) / glm::dot(light.halfY, light.halfY);
+    const bool isInside = light.shape == Light::Shape::Disc ? x * x + y * y <= 1 : std::abs(x) <= 1 && std::abs(y) <= 1;
+    return isInside ? distance : kNowhere;
+}
+
+std::optional<SeenArea> DirectLights::seenArea(double3 origin, double3 direction, double nearest,
+                                               double farthest) const {
+    std::optional<SeenArea> seen;
+    if (!mHasVisible) return seen;
+    for (Light const& light : mLights) {
+        if (!light.isVisible) continue;
+        const double distance = distanceTo(light, origin, direction);
+        if (distance > nearest && distance < (seen ? seen->distance : farthest))
+            seen = SeenArea{ distance, light.intensity };
+    }
+    return seen;
 }
 
 double3 DirectLights::discsIn(double3 direction) const {

@@ -17,6 +17,7 @@
 #include <filament_core/Light.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace filament_core::reference {
@@ -44,6 +45,12 @@ struct DirectSample {
     double3 towardsPoint(double2 u) const;
 };
 
+/// Of an area that is drawn.
+struct SeenArea {
+    double distance = 0;      ///< from the ray's origin
+    double3 luminance{ 0.0 }; ///< times factor
+};
+
 class DirectLights {
 public:
     DirectLights() = default;
@@ -53,6 +60,8 @@ public:
     /// The luminance, times factor, that a camera sees of suns that show their disc: docs/lights.md, "A sun in the
     /// sky".
     double3 discsIn(double3 direction) const;
+    /// The nearest area with `isVisible` on a ray, of those within a range of distances, from a side that shines.
+    std::optional<SeenArea> seenArea(double3 origin, double3 direction, double nearest, double farthest) const;
     /// u chooses the light, `onArea` the point of an area; in [0, 1).
     DirectSample sample(double3 position, double u, double2 onArea = double2(0.5)) const;
 
@@ -67,7 +76,7 @@ private:
         double radius = 0; // metres; of suns: for each metre of distance; of tubes
         bool castsShadows = true;
         enum class Shape : uint8_t { None, Rect, Disc, Tube } shape = Shape::None;
-        bool isTwoSided = false;
+        bool isTwoSided = false, isVisible = false;
         double3 halfX{ 0.0 }, halfY{ 0.0 }; // half edges or radii; of a tube halfX is half its axis
         double area = 0;                    // m^2 of one side
         ProfilePtr profile{};               // its -Z is `axis`
@@ -92,7 +101,10 @@ private:
     void add(DiscLight const& disc, double factor);
     void add(TubeLight const& tube, double factor);
 
+    static double distanceTo(Light const& light, double3 origin, double3 direction);
+
     std::vector<Light> mLights;
+    bool mHasVisible = false;
 };
 
 } // namespace filament_core::reference

@@ -57,6 +57,7 @@ struct PathTracer::Path {
     bool isBehindGlass = false;         // no light was sampled where the ray began: straight crossing, or scattered
     std::optional<MediumSample> medium; // that it entered
     uint32_t flights = 0;               // through solids that scatter
+    std::optional<SeenArea> area;       // that it ended at
 
     double2 pair(BounceDimension dimension) const {
         return numbers.pair(kFirstBounce + events * kPerBounce + dimension);
@@ -74,9 +75,12 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     const std::optional<SurfaceSample> first = nextSurface(path);
     // Of the light that reaches the camera: blended surfaces in front may have let only a part through.
     const double3 share = path.throughput;
-    const double distance = first ? path.hit.distance : std::numeric_limits<double>::infinity();
+    const bool isArea = path.area.has_value();
+    const double distance = first    ? path.hit.distance
+                            : isArea ? path.area->distance
+                                     : std::numeric_limits<double>::infinity();
     const double3 light = follow(path, first);
-    if (!first && !mScene.skybox()) return light;
+    if (!first && !isArea && !mScene.skybox()) return light;
     const double3 seen = mFog.inFront(light, share, ray.direction, distance, { &numbers, kFogOpacity });
     return mFog.isLit() ? seen + share * scatteredByFog(path, ray, distance) : seen;
 }
@@ -101,7 +105,7 @@ Arriving PathTracer::arriving(ReceivingPoint const& point, LampLight lamps, Samp
     Arriving arriving;
     if (reflect(path, surface, white)) {
         const std::optional<SurfaceSample> first = nextSurface(path);
-        arriving.fromSky = !first;
+        arriving.fromSky = !first && !path.area;
         if (first) {
             Part const& part = mScene.part(path.hit);
             const bool isBack = glm::dot(faceNormal(part, path.hit.point.triangle), path.ray.direction) > 0;
@@ -214,7 +218,9 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
     while (true) {
         ++path.rays;
         const std::optional<Hit> hit = mScene.nearest(path.ray);
-        if (!hit) return {};
+        path.area = mScene.directLights().seenArea(path.ray.origin, path.ray.direction, path.ray.nearest,
+                                                   hit ? hit->distance : path.ray.farthest);
+        if (!hit || path.area) return {};
         path.hit = *hit;
         SurfaceSample surface = surfaceAt(mScene.part(*hit), hit->point, -path.ray.direction);
         if (surface.opacity >= 1) return surface;
@@ -235,6 +241,8 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
 
 double3 PathTracer::missed(Path const& path) const {
     EnvironmentLight const& environment = mScene.environment();
+    // Where a light was sampled, the surface has the light of areas already.
+    if (path.area) return path.isCamera || path.isBehindGlass ? path.area->luminance * mExposure : double3(0.0);
     if (path.isCamera) {
         const double3 discs = mScene.directLights().discsIn(path.ray.direction) * mExposure;
         return discs + (mScene.skybox() ? environment.radiance(path.ray.direction) * mExposure : mBackground);

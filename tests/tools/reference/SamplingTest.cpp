@@ -191,6 +191,47 @@ double3 meanIrradiance(LightSet const& set, double3 normal) {
     return sum / double(kSteps * kSteps * kChoices);
 }
 
+// A ray meets the nearest drawn area from a side that shines, within its range of distances.
+TEST(DirectLights, AreSeenOnlyWhereTheyAreDrawnAndShine) {
+    RectLight rect{ .positionWorld = { 0, 2, 0 },
+                    .directionWorld = { 0, -1, 0 },
+                    .upWorld = { 0, 0, 1 },
+                    .widthMeters = 1,
+                    .heightMeters = 0.5f,
+                    .luminance = Nits{ 3 } };
+    const auto seen = [](LightSet const& set, double3 origin, double3 direction, double farthest = 10) {
+        return DirectLights(set, 2).seenArea(origin, direction, 0, farthest);
+    };
+    const double3 up(0, 1, 0);
+    EXPECT_FALSE(seen({ .rects = { rect } }, {}, up)) << "by default";
+    rect.isVisible = true;
+    ASSERT_TRUE(seen({ .rects = { rect } }, { 0.49, 0, 0.24 }, up));
+    EXPECT_EQ(seen({ .rects = { rect } }, {}, up)->distance, 2);
+    EXPECT_EQ(seen({ .rects = { rect } }, {}, up)->luminance, double3(6));
+    EXPECT_FALSE(seen({ .rects = { rect } }, { 0.51, 0, 0 }, up));
+    EXPECT_FALSE(seen({ .rects = { rect } }, { 0, 0, 0.26 }, up));
+    EXPECT_FALSE(seen({ .rects = { rect } }, {}, up, 1.9)) << "behind a surface";
+    EXPECT_FALSE(seen({ .rects = { rect } }, { 0, 3, 0 }, -up)) << "from behind";
+    rect.isTwoSided = true;
+    EXPECT_TRUE(seen({ .rects = { rect } }, { 0, 3, 0 }, -up));
+    const TubeLight tube{ .positionWorld = { 0, 1, 0 },
+                          .axisWorld = { 1, 0, 0 },
+                          .lengthMeters = 1,
+                          .radiusMeters = 0.25f,
+                          .luminance = Nits{ 5 },
+                          .isVisible = true };
+    const auto nearest = seen({ .rects = { rect }, .tubes = { tube } }, {}, up);
+    ASSERT_TRUE(nearest);
+    EXPECT_EQ(nearest->distance, 0.75);
+    EXPECT_EQ(nearest->luminance, double3(10));
+    EXPECT_FALSE(seen({ .tubes = { tube } }, {}, { 0.7, 0.7, 0 })) << "beyond its end";
+    const DiscLight disc{
+        .positionWorld = { 0, 2, 0 }, .directionWorld = { 0, -1, 0 }, .radiusMeters = 0.5f, .isVisible = true
+    };
+    EXPECT_TRUE(seen({ .discs = { disc } }, { 0.35, 0, 0.35 }, up));
+    EXPECT_FALSE(seen({ .discs = { disc } }, { 0.36, 0, 0.36 }, up));
+}
+
 // pi L sin^2 of the angle of its rim.
 TEST(DirectLights, ADiscGivesTheIrradianceOfItsClosedForm) {
     for (const float radius : { 0.1f, 1.0f, 4.0f }) {
