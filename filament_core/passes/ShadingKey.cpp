@@ -123,7 +123,7 @@ ShadingKey withoutLightList(ShadingKey key) {
     const ShadingKey filter = ShadingKey{ static_cast<uint32_t>(shadowFilterOf(key)) }
                               << shiftOf(shader::kQualityShadowFilter);
     return (key & ~(maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles) |
-                    maskOf(shader::kQualityShadowFilter))) |
+                    maskOf(shader::kQualityLightImages) | maskOf(shader::kQualityShadowFilter))) |
            filter;
 }
 
