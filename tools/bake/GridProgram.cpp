@@ -5,6 +5,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
 #include "toolkit/json/JsonReader.h"
+#include "toolkit/program/Console.h"
 #include "toolkit/scenes/BoxFields.h"
 #include "tools/bake/BakeScene.h"
 
@@ -104,6 +105,11 @@ Result<void> writeGrid(BakedGrid const& baked, std::filesystem::path const& fold
     const std::filesystem::path path = folder / (baked.grid.name + ".grid");
     if (Result<void> done = assets::replaceFile(path, writeIrradianceGrid(baked.grid)); !done) return done;
     if (auto done = tools::writeJson(folder / (baked.grid.name + "-report.json"), reportOf(baked)); !done) return done;
+    if (baked.report.mean <= 0 && baked.report.inside < baked.grid.probes->probes.size())
+        tools::printWarning("no light reaches a probe; give --environment or --sun, or a model with lights");
+    if (baked.report.inside == baked.grid.probes->probes.size())
+        tools::printWarning("all probes are inside of geometry, and light nothing; move the box, or give a smaller "
+                            "spacing");
     std::printf("%s: %s", path.c_str(), describe(baked).c_str());
     return {};
 }

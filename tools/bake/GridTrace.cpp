@@ -13,7 +13,8 @@ namespace {
 
 constexpr uint64_t kHeldOutStream = uint64_t{ 1 } << 40; // beyond the numbers of probes
 constexpr uint64_t kJudgeStream = uint64_t{ 1 } << 41;
-constexpr size_t kGridBatch = 64; // records between two reports
+constexpr double kFarthestMeters = 1e9; // of depths in a file
+constexpr size_t kGridBatch = 64;       // records between two reports
 
 /// The depths follow.
 struct RecordHead {
@@ -118,7 +119,7 @@ TracedProbe GridTrace::traceOne(size_t record) const {
     probes->count = count;
     places.probes = probes;
     ProbeSettings settings = mSettings.probes;
-    settings.farthestMeters = 1.5 * double{ glm::length(scene::spacingOf(places)) };
+    settings.farthestMeters = std::min(1.5 * double{ glm::length(scene::spacingOf(places)) }, kFarthestMeters);
     const uint3 at(i % count.x, i / count.x % count.y, i / count.x / count.y);
     return traceProbe(mScene, inWorld(scene::placeOf(places, at)), i, mSettings.box.worldFromBox, settings);
 }

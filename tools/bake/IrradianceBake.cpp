@@ -165,6 +165,12 @@ Result<void> checkGridSettings(GridSettings const& settings) {
     if (!isIn(settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize)) return invalid("depthSize is above 32");
     if (!isIn(settings.probes.depthRays, 1, 65536)) return invalid("depthRays is not in [1, 65536]");
     if (!isIn(settings.leakPointsPerSide, 0, 16)) return invalid("leakPointsPerSide is not in [0, 16]");
+    IrradianceGridDesc box = settings.box; // what the file could not hold is refused before it is traced
+    auto probe = std::make_shared<IrradianceProbes>();
+    probe->count = uint3(1);
+    probe->probes.resize(1);
+    box.probes = probe;
+    if (const auto read = readIrradianceGrid(writeIrradianceGrid(box)); !read) return read.error();
     return {};
 }
 

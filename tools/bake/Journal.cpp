@@ -25,14 +25,18 @@ struct Block {
 /// `at`: the number of its first record.
 uint64_t hashOfBlock(std::span<const std::byte> records, uint64_t at) { return hashBytes(records, at + 1); }
 
+/// In the way of a journal.
 Error foreign(std::filesystem::path const& file, const char* what) {
-    return fail(ErrorCode::Corrupt, "{}: {}; delete it, or give another --out", file.string(), what);
+    return fail(ErrorCode::Corrupt, "{}: {}; move it away, or give another --out", file.string(), what);
 }
+
+constexpr const char* kNoPart = "is no part of a bake";
 
 Result<JournalPart> parse(std::filesystem::path const& file, std::span<const std::byte> bytes) {
     FileHeader header{};
     if (bytes.size() >= sizeof(header)) std::memcpy(&header, bytes.data(), sizeof(header));
-    if (header.magic != kMagic || header.recordBytes == 0) return foreign(file, "is no part of a bake");
+    if (header.magic != kMagic || header.recordBytes == 0)
+        return fail(ErrorCode::Corrupt, "{}: {}; give files that --shard wrote", file.string(), kNoPart);
     JournalPart part{ { header.bake, { header.first, header.count }, header.recordBytes }, {}, sizeof(header) };
     while (bytes.size() - part.bytes >= sizeof(Block)) {
         Block block{};
@@ -69,6 +73,7 @@ Result<Journal> Journal::open(std::filesystem::path const& file, JournalHeader c
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) {
         Result<JournalPart> part = readJournal(file);
+        if (!part && part.error().code == ErrorCode::Corrupt) return foreign(file, kNoPart);
         if (!part) return part.error();
         if (part->header != header) return foreign(file, "belongs to a bake with other settings");
         journal.mRecords = std::move(part->records);

@@ -103,7 +103,11 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     for (std::string const& warning : bake.warnings) tools::printWarning(warning);
     const bool isDark =
             std::ranges::all_of(texels, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
-    if (isDark) tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
+    if (texels.empty())
+        tools::printWarning(
+                "no triangle has an area in the lightmap; give a larger --density, or a model with surfaces");
+    else if (isDark)
+        tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
     std::printf("%s: %zu texels of %zu charts in %u x %u\n", path.c_str(), bake.texels.size(), bake.atlas.charts.size(),
                 image.side, image.side);
     return 0;

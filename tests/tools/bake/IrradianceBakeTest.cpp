@@ -6,6 +6,9 @@
 #include "filament_core/scene/SampleGrid.h"
 #include "tests/tools/bake/GridRooms.h"
 
+#include <cmath>
+#include <limits>
+
 namespace filament_core::bake {
 namespace {
 
@@ -265,12 +268,54 @@ TEST_F(IrradianceBake, LeaksOfFiftyRoomsAreThoseOfASearchThroughAllTriangles) {
     EXPECT_GT(withoutDepths, 100u);
 }
 
+TEST_F(IrradianceBake, AGridOfOneProbeHoldsItsLightEverywhere) {
+    GridSettings settings = cheap(float3(1), 2);
+    settings.maxProbes = 1;
+    const BakedGrid baked = bake({ .environment = skyOf([](double3) { return float3(1); }) }, settings);
+    EXPECT_EQ(baked.grid.probes->count, uint3(1));
+    EXPECT_NEAR(scene::sampleGrid(scene::gridRecord(baked.grid), float3(0.9f)).light[0].x, kLux, 0.05f * kLux);
+}
+
+TEST_F(IrradianceBake, BoxesOfAnySizeAreTraced) {
+    for (const float half : { 1e-9f, 1e-3f, 1e6f, 1e9f }) {
+        GridSettings settings = cheap(float3(half), 1e6f);
+        settings.maxProbes = 8;
+        settings.probes.rays = 16;
+        const BakedGrid baked = bake({ .environment = skyOf([](double3) { return float3(1); }) }, settings);
+        EXPECT_TRUE(baked.report.isWithinBound || baked.report.heldOutError > 0) << half;
+        EXPECT_NEAR(baked.grid.probes->probes[0].irradianceSh[0].x, kLux, 0.05f * kLux) << half;
+    }
+}
+
+TEST_F(IrradianceBake, WithoutLightOrOutsideOfWallsThereIsNothingToJudge) {
+    GridSettings settings = cheap(float3(0.3f), 0.3f);
+    settings.judgedPoints = 64;
+    settings.probes.rays = 16;
+    const ReferenceScene box{ .models = {
+                                      { .data = makeModel(boxesPrimitive({ { {}, float3(1) } }), lambert(0.5f)) } } };
+    const BakedGrid inside = bake(box, settings);
+    EXPECT_EQ(inside.report.inside, inside.grid.probes->probes.size());
+    EXPECT_EQ(inside.report.judgement.inside, 64u);
+    EXPECT_EQ(inside.report.heldOutPoints, 0u);
+    settings.box.centerWorld = { 5, 0, 0 };
+    const BakedGrid dark = bake(box, settings);
+    EXPECT_EQ(dark.report.judgement.dark, 64u);
+    EXPECT_EQ(dark.report.mean, 0);
+    for (BakedGrid const* baked : { &inside, &dark }) {
+        EXPECT_FALSE(baked->report.judgement.interpolation);
+        EXPECT_TRUE(std::isfinite(baked->report.standardError) && std::isfinite(baked->report.heldOutError));
+    }
+}
+
 TEST_F(IrradianceBake, SettingsOutsideOfTheirRangesAreAnErrorOfOneLine) {
     const TracedScenePtr scene = traced({ .environment = skyOf([](double3) { return float3(1); }) }, jobs);
     for (const auto& change : std::initializer_list<std::function<void(GridSettings&)>>{
                  [](GridSettings& s) { s.spacingMeters = 0; }, [](GridSettings& s) { s.maxProbes = 0; },
                  [](GridSettings& s) { s.box.halfExtentMeters.y = -1; }, [](GridSettings& s) { s.maxError = -1; },
-                 [](GridSettings& s) { s.heldOutPoints = 0; }, [](GridSettings& s) { s.probes.depthSize = 33; } }) {
+                 [](GridSettings& s) { s.heldOutPoints = 0; }, [](GridSettings& s) { s.judgedPoints = 65537; },
+                 [](GridSettings& s) { s.box.centerWorld.x = std::numeric_limits<double>::infinity(); },
+                 [](GridSettings& s) { s.box.halfExtentMeters.x = 0; },
+                 [](GridSettings& s) { s.probes.depthSize = 33; } }) {
         GridSettings settings = cheap(float3(1), 1);
         change(settings);
         const Result<BakedGrid> baked = bakeIrradianceGrid(*scene, settings, jobs);

@@ -85,6 +85,25 @@ TEST(BakeLight, OfAFloorUnderAUniformSkyIsPiL) {
     }
 }
 
+// The same from 1e-6 to 1e6 candela / m2, and for texels of a micrometre.
+TEST(BakeLight, OfAUniformSkyIsPiLWhateverItsScale) {
+    for (const float radiance : { 1e-6f, 1.0f, 1e6f }) {
+        for (const double meters : { 1e-6, 0.1 }) {
+            ReferenceScene scene{ .models = {
+                                          { reference::makeModel(reference::floorPrimitive(), pureLambert(0.5f)) } } };
+            scene.environment = reference::uniformSky(radiance);
+            const Baked baked = bake(scene, floorSurface(2 * meters), 1 / meters, plain(1024));
+            ASSERT_EQ(baked.lights.size(), 4u * 4 + 4 * 4 + 4);
+            for (TexelLight const& light : baked.lights)
+                EXPECT_NEAR(light.irradiance.x / double(radiance), kPiExact,
+                            4 * light.standardError.x / double(radiance) + 2e-3);
+            const LightmapImage image = makeImage(baked.atlas, baked.texels, baked.lights);
+            const double stored = double(lookUp(halvesOf(image), double2(4.0)).x) * image.intensity;
+            EXPECT_NEAR(stored / double(radiance), kPiExact, 0.05);
+        }
+    }
+}
+
 // Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-3: a differential element at the foot of the
 // normal through the corner of a perpendicular rectangle of height a and width b, at distance c. Here two of them.
 double factorOfWall(double height, double halfWidth, double distance) {
@@ -304,6 +323,9 @@ TEST_F(JournalTest, RefusesWhatIsNotItsOwn) {
     std::ofstream(mFolder / "b.part") << "something else entirely, that must not be lost";
     EXPECT_FALSE(Journal::open(mFolder / "b.part", { 42, { 0, 100 }, sizeof(TexelLight) }));
     EXPECT_EQ(std::filesystem::file_size(mFolder / "b.part"), 46u);
+    const auto other = mergeJournals(std::vector{ mFolder / "b.part" }, { 42, { 0, 100 }, sizeof(TexelLight) });
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().message.find("delete"), std::string::npos) << "it may be somebody's model";
     const Result<std::vector<std::byte>> merged =
             mergeJournals(std::vector{ mFolder / "a.part" }, { 42, { 0, 100 }, sizeof(TexelLight) });
     ASSERT_FALSE(merged);

@@ -154,6 +154,10 @@ TEST_F(BakeProgram, WarnsOfASceneWithoutLight) {
     const Outcome outcome = run("dark.glb --density 4 --samples 32 --environment none --out dark");
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr("no light reaches a surface"));
+    std::ofstream(mFolder / "grid.json") << R"({"at": [0, 1, 0], "halfExtent": [0.5, 0.5, 0.5], "paths": 16})";
+    const Outcome grid = run("dark.glb --grid grid.json --environment none --out dark");
+    EXPECT_EQ(grid.status, 0) << grid.text;
+    EXPECT_THAT(grid.text, HasSubstr("no light reaches a probe"));
 }
 
 TEST_F(BakeProgram, SaysWhatIsWrongWithAGrid) {
