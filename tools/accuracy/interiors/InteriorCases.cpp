@@ -29,23 +29,34 @@ InteriorCase gallery() {
     return made;
 }
 
+/// The same room with walls in panels of a metre, each with a field of light of its own.
+InteriorCase galleryInPanels() {
+    InteriorCase made = gallery();
+    made.name = "gallery-panels";
+    made.title = "Gallery, walls in panels of 1 m";
+    made.room = interiors::gallery({ .panelMeters = 1 });
+    made.room->model.name = made.name;
+    return made;
+}
+
 /// Its rooms are painted boxes, so cameras stand below its awnings. A unit is about 2 cm.
 InteriorCase tokyo() {
     InteriorCase made{ .name = "tokyo", .title = "LittlestTokyo, below its awnings" };
     made.asset = "models/LittlestTokyo/LittlestTokyo.glb";
-    made.environment = "environments/spiaggia_di_mondello_1k.hdr";
+    made.environment = "environments/studio_small_03_1k.hdr";
     made.without = "outline";
     made.cameras = { { { -20, -150, 180 }, { -140, -160, 0 }, 60 },
-                     { { 40, -140, 150 }, { -60, -150, 60 }, 60 },
+                     { { -60, -150, 190 }, { -140, -150, 20 }, 60 },
                      { { -40, -160, 100 }, { 20, -150, -100 }, 60 },
                      { { -30, -130, 150 }, { -30, -160, 20 }, 60 },
                      { { -100, -160, 200 }, { 0, -150, 40 }, 60 } };
     made.exposure = { .aperture = 8, .shutterSeconds = 1.0f / 125, .iso = 100 };
     made.grid = { { -85, 0, -25 }, { 280, 230, 280 } };
     made.probes = { { { -20, -120, 130 }, { 120, 90, 90 } } };
-    made.texelsPerMeter = 0.2;
-    made.texelSamples = 128;
-    made.gridSpacing = 50;
+    made.texelsPerMeter = 0.4;
+    made.texelSamples = 32;
+    made.gridSpacing = 60;
+    made.mostProbes = 1000;
     return made;
 }
 
@@ -53,6 +64,6 @@ InteriorCase tokyo() {
 
 const char* toString(LightTechnique technique) { return kNames[static_cast<size_t>(technique)]; }
 
-std::vector<InteriorCase> interiorCases() { return { cornell(), gallery(), tokyo() }; }
+std::vector<InteriorCase> interiorCases() { return { cornell(), gallery(), galleryInPanels(), tokyo() }; }
 
 } // namespace filament_core::accuracy

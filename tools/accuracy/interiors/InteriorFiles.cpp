@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -24,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kProbeSize = 128;
+constexpr uint32_t kProbeSize = 64;
 
 Result<void> writeText(fs::path const& path, std::string const& text) {
     return assets::replaceFile(path, std::as_bytes(std::span(text.data(), text.size())));
@@ -135,15 +136,18 @@ private:
         return sceneOf(mCase, mFiles, LightTechnique::Environment, camera, mSettings.size);
     }
 
-    /// The scene for the path tracer, read when it is first needed.
-    Result<reference::TracedScene const*> traced() {
-        if (mScene) return mScene.get();
-        const Result<reference::ReferenceScene> scene = referenceSceneOf(plainScene(0), mFolders, mJobs);
+    /// The scene for the path tracer, read when it is first needed. `skybox`: the camera sees the sky.
+    Result<reference::TracedScene const*> traced(bool skybox) {
+        reference::TracedScenePtr& kept = mScenes[skybox];
+        if (kept) return kept.get();
+        SceneSpec spec = plainScene(0);
+        spec.environmentSettings.skybox = skybox;
+        const Result<reference::ReferenceScene> scene = referenceSceneOf(spec, mFolders, mJobs);
         if (!scene) return scene.error();
         Result<reference::TracedScenePtr> prepared = reference::prepare(*scene, mJobs);
         if (!prepared) return prepared.error();
-        mScene = std::move(*prepared);
-        return mScene.get();
+        kept = std::move(*prepared);
+        return kept.get();
     }
 
     reference::ReferenceSettings pathSettings(uint32_t samples) const {
@@ -161,13 +165,13 @@ private:
         mStep(fmt::format("{}: trace probe {} of {}", mCase.name, index + 1, mCase.probes.size()));
         const fs::path path = mFiles.probes.emplace_back(mFolder / fmt::format("probe-{}.ktx2", index));
         const double3 at = mCase.probes[index].center;
-        const reference::ReferenceSettings settings = pathSettings(64);
-        const std::string key = fmt::format("{} {} {} {} {}", at.x, at.y, at.z, kProbeSize, settings.samplesPerPixel);
+        const reference::ReferenceSettings settings = pathSettings(128);
+        const std::string key =
+                fmt::format("{} {} {} {} {} sky", at.x, at.y, at.z, kProbeSize, settings.samplesPerPixel);
         if (isKept(path, key)) return {};
-        const Result<reference::TracedScene const*> scene = traced();
+        const Result<reference::TracedScene const*> scene = traced(true);
         if (!scene) return scene.error();
         SceneSpec place = plainScene(0);
-        place.environmentSettings.skybox = true;
         place.eye = at, place.at = at - double3(0, 0, 1);
         const Result<std::vector<std::byte>> cube = reference::traceProbe(**scene, { .camera = cameraOf(place, {}) },
                                                                           kProbeSize, settings, mJobs, isUninterrupted);
@@ -188,7 +192,7 @@ private:
                             spec.at.y, spec.at.z, spec.lens.verticalFovDegrees, spec.exposure.factor(),
                             mSettings.size.x, mSettings.size.y, settings.samplesPerPixel, errors.filename().string());
         if (!isKept(path, key)) {
-            const Result<reference::TracedScene const*> scene = traced();
+            const Result<reference::TracedScene const*> scene = traced(false);
             if (!scene) return scene.error();
             const Result<reference::ReferenceImage> image =
                     render(**scene, { .camera = cameraOf(spec, {}), .size = mSettings.size }, settings, mJobs,
@@ -217,8 +221,8 @@ private:
     std::function<void(std::string const&)> const& mStep;
     const fs::path mFolder;
     InteriorFiles mFiles;
-    uint64_t mHash = 0; // of model and environment
-    reference::TracedScenePtr mScene;
+    uint64_t mHash = 0;                               // of model and environment
+    std::array<reference::TracedScenePtr, 2> mScenes; // without and with a visible sky
 };
 
 } // namespace
