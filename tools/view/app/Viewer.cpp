@@ -287,7 +287,8 @@ double Viewer::idleSeconds() const {
     const bool moves = (mFramesToDraw > 0 && !isHidden()) || mHands.isMoving() || mDocument.playback.isPlaying ||
                        isLoading() || mPick || mCompared.isWaiting() || mNumerics.isWaiting() ||
                        (mPanels.requests.inspectsPixel && mInspector.isWaiting());
-    const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
+    const bool saves =
+            mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy() || mLightWork.isBusy();
     PanelState const& state = mPanels.state;
     const bool waits =
             state.path.isPlaying || mPanels.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
@@ -380,6 +381,8 @@ bool Viewer::step(double seconds) {
     pollPick();
     pollLatency();
     pollInspector();
+    if (mLightWork.poll(mPanels, mDocument)) touch();
+    for (std::string& message : mLightWork.takeMessages()) note(std::move(message));
     if (mNumerics.poll(*mStage)) touch();
     if (mPanels.poll()) touch();
     const double polled = threadSeconds();
@@ -415,6 +418,12 @@ Box Viewer::boundsOfSelection() const {
 
 void Viewer::drawOutline() {
     mOutline.clear();
+    if (std::optional<size_t> const& probe = mPanels.state.selectedProbe; probe && *probe < mDocument.probes.size()) {
+        DocumentProbe const& shown = mDocument.probes[*probe];
+        mOutline.box({ shown.centerWorld - double3(shown.halfExtentMeters),
+                       shown.centerWorld + double3(shown.halfExtentMeters) },
+                     { .color = { 0.3f, 0.7f, 1, 1 }, .widthPixels = 1, .depth = DebugDepth::Through });
+    }
     if (!mPanels.state.selectedNode || mDocument.view.debugView == DebugView::Numerics) return; // it covers marks
     mOutline.box(boundsOfSelection(),
                  { .color = { 1, 0.62f, 0.1f, 1 }, .widthPixels = 2, .depth = DebugDepth::Through });
@@ -467,6 +476,7 @@ void Viewer::draw(double seconds) {
     const EngineOptions options = engineOptions(mStage->engine().device().backend);
     if (mCompared.follow(mDocument, *mStage, mChain, mOffset, options)) touch();
     mInstruments.afterFrame(mPanels, mDocument, mCompared, options);
+    mLightWork.follow(mPanels, mDocument, *mStage, options, mOptions.out);
     mUiRenderer->render(*ImGui::GetDrawData(), mChain, mTarget.pixels);
     mStage->renderer().present(mChain);
     mPanels.collect(*mStage);

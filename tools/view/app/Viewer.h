@@ -18,6 +18,7 @@
 #include "tools/view/app/GizmoHands.h"
 #include "tools/view/app/History.h"
 #include "tools/view/app/Instruments.h"
+#include "tools/view/app/LightWork.h"
 #include "tools/view/app/NumericsCounter.h"
 #include "tools/view/app/PathFrames.h"
 #include "tools/view/app/PictureSaver.h"
@@ -82,6 +83,7 @@ public:
     GizmoHands& gizmo() { return mGizmo; }
     GizmoScene gizmoScene() { return { mDocument, *mStage, mPanels.state, mHands.targetWorld }; }
     ComparedPictures const& compared() const { return mCompared; }
+    LightWork const& lightWork() const { return mLightWork; }
     NumericsCounter const& numerics() const { return mNumerics; }
     PixelInspector const& inspector() const { return mInspector; }
     /// Lines for people since the last call: failed loads, misuse of files, errors of the device.
@@ -157,6 +159,7 @@ private:
     FrameSaver mSaver;
     PathRecorder mRecorder;
     Instruments mInstruments;
+    LightWork mLightWork;
     CameraHands mHands;
     GizmoHands mGizmo;
     DebugDraw mOutline;

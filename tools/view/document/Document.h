@@ -75,6 +75,25 @@ struct DocumentLight {
     std::filesystem::path profileFile{}; ///< .ies, of points and spots; empty: none
 };
 
+/// A reflection probe that the document adds, in the world, along its axes.
+struct DocumentProbe {
+    std::string name{};
+    bool isOn = true;
+    double3 centerWorld{ 0.0 };
+    float3 halfExtentMeters{ 1.0f };
+    float blendMeters = 0.25f;
+    std::filesystem::path file{}; ///< what is seen from its middle, as an environment's; empty: it lights nothing yet
+    float intensity = 1;          ///< candela / m2 of a texel of 1
+    bool lightsDiffuse = true;
+};
+
+/// An irradiance grid that filament-bake wrote, in the world.
+struct DocumentGrid {
+    std::filesystem::path file{};
+    bool isOn = true;
+    float intensity = 1; ///< of what the file says
+};
+
 /// Of a light of the model's file.
 struct ModelLightEdit {
     uint32_t light = 0; ///< its place in Stage::modelLights()
@@ -110,6 +129,8 @@ struct Document {
     std::vector<MaterialEdit> materials{}; ///< one of a parameter
     std::vector<TextureEdit> textures{};   ///< one of a parameter
     std::vector<DocumentLight> lights{};
+    std::vector<DocumentProbe> probes{};
+    std::vector<DocumentGrid> grids{};
     std::vector<ModelLightEdit> modelLights{}; ///< one of a light
     Playback playback{};
     std::vector<MorphEdit> morphs{}; ///< one of a target
@@ -132,6 +153,8 @@ bool operator==(NodeEdit const& a, NodeEdit const& b);
 bool operator==(MaterialEdit const& a, MaterialEdit const& b);
 bool operator==(TextureEdit const& a, TextureEdit const& b);
 bool operator==(DocumentLight const& a, DocumentLight const& b);
+bool operator==(DocumentProbe const& a, DocumentProbe const& b);
+bool operator==(DocumentGrid const& a, DocumentGrid const& b);
 bool operator==(ModelLightEdit const& a, ModelLightEdit const& b);
 bool operator==(MorphEdit const& a, MorphEdit const& b);
 bool operator==(Playback const& a, Playback const& b);

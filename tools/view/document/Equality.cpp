@@ -55,6 +55,8 @@ bool operator==(NodeEdit const& a, NodeEdit const& b) { return Same()(a, b); }
 bool operator==(MaterialEdit const& a, MaterialEdit const& b) { return Same()(a, b); }
 bool operator==(TextureEdit const& a, TextureEdit const& b) { return Same()(a, b); }
 bool operator==(DocumentLight const& a, DocumentLight const& b) { return Same()(a, b); }
+bool operator==(DocumentProbe const& a, DocumentProbe const& b) { return Same()(a, b); }
+bool operator==(DocumentGrid const& a, DocumentGrid const& b) { return Same()(a, b); }
 bool operator==(ModelLightEdit const& a, ModelLightEdit const& b) { return Same()(a, b); }
 bool operator==(MorphEdit const& a, MorphEdit const& b) { return Same()(a, b); }
 bool operator==(Playback const& a, Playback const& b) { return Same()(a, b); }

@@ -251,6 +251,21 @@ template <> struct Fields<DocumentLight> {
                                              field("profileFile", &DocumentLight::profileFile) };
     static constexpr size_t others = 0;
 };
+template <> struct Fields<DocumentProbe> {
+    static constexpr auto list = std::tuple{
+        field("name", &DocumentProbe::name), field("isOn", &DocumentProbe::isOn),
+        field("centerWorld", &DocumentProbe::centerWorld, -1e9, 1e9),
+        field("halfExtentMeters", &DocumentProbe::halfExtentMeters, 1e-4, 1e6),
+        field("blendMeters", &DocumentProbe::blendMeters, 0, 1e6), field("file", &DocumentProbe::file),
+        field("intensity", &DocumentProbe::intensity, 0, 1e9),
+        field("lightsDiffuse", &DocumentProbe::lightsDiffuse) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<DocumentGrid> {
+    static constexpr auto list = std::tuple{ field("file", &DocumentGrid::file), field("isOn", &DocumentGrid::isOn),
+                                             field("intensity", &DocumentGrid::intensity, 0, 1e6) };
+    static constexpr size_t others = 0;
+};
 template <> struct Fields<ModelLightEdit> {
     static constexpr auto list = std::tuple{ field("light", &ModelLightEdit::light),
         field("isOn", &ModelLightEdit::isOn),
@@ -290,6 +305,7 @@ template <> struct Fields<Document> {
         field("model", &Document::model), field("environment", &Document::environment),
         field("nodes", &Document::nodes),
         field("materials", &Document::materials), field("textures", &Document::textures), field("lights", &Document::lights),
+        field("probes", &Document::probes), field("grids", &Document::grids),
         field("modelLights", &Document::modelLights), field("playback", &Document::playback),
         field("morphs", &Document::morphs), field("view", &Document::view), field("look", &Document::look),
         field("dirt", &Document::dirt), field("bookmarks", &Document::bookmarks), field("paths", &Document::paths) };
@@ -306,6 +322,7 @@ static_assert(areComplete<Exposure, Lens, Camera, LevelsOfDetail, View, GltfLoad
 static_assert(areComplete<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>());
 static_assert(areComplete<DocumentModel, DocumentEnvironment, NodeEdit, MaterialEdit, TextureEdit, DocumentLight,
                           ModelLightEdit>());
+static_assert(areComplete<DocumentProbe, DocumentGrid>());
 static_assert(areComplete<MorphEdit, Playback, Bookmark, CameraKey, CameraPath, Document>());
 
 // ---- what a field may be

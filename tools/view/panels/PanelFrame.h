@@ -31,6 +31,7 @@ struct PanelFrame {
 void drawScenePanel(PanelFrame& frame);
 void drawMaterialPanel(PanelFrame& frame);
 void drawLightPanel(PanelFrame& frame);
+void drawProbePanel(PanelFrame& frame);
 void drawEnvironmentPanel(PanelFrame& frame);
 void drawAnimationPanel(PanelFrame& frame);
 void drawPathPanel(PanelFrame& frame);

@@ -15,9 +15,10 @@ struct PanelTab {
     const char* name;
     void (*draw)(PanelFrame& frame);
 };
-constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel },      PanelTab{ "Materials", drawMaterialPanel },
-                                PanelTab{ "Lights", drawLightPanel },     PanelTab{ "Sky", drawEnvironmentPanel },
-                                PanelTab{ "Motion", drawAnimationPanel }, PanelTab{ "Path", drawPathPanel } };
+constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel },     PanelTab{ "Materials", drawMaterialPanel },
+                                PanelTab{ "Lights", drawLightPanel },    PanelTab{ "Probes", drawProbePanel },
+                                PanelTab{ "Sky", drawEnvironmentPanel }, PanelTab{ "Motion", drawAnimationPanel },
+                                PanelTab{ "Path", drawPathPanel } };
 constexpr std::array kRightTabs{ PanelTab{ "Camera", drawCameraPanel },     PanelTab{ "Options", drawOptionPanel },
                                  PanelTab{ "Costs", drawCostPanel },        PanelTab{ "Compare", drawComparePanel },
                                  PanelTab{ "Demand", drawDemandPanel },     PanelTab{ "Graph", drawGraphPanel },

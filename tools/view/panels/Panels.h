@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around an image, in which a Document is edited and what a Stage draws is
-/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, costs,
-/// comparison, demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of plain
-/// functions; the models have tests of their own.
+/// looked into. Left: scene, materials, lights, probes, environment, animation, camera paths. Right: camera, options,
+/// costs, comparison, demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of
+/// plain functions; the models have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the
 ///            stage, render, and panels.collect(stage).
 ///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured
@@ -25,6 +25,7 @@
 #include "tools/view/panels/OptionTable.h"
 #include "tools/view/panels/PanelLayout.h"
 #include "tools/view/panels/PathModel.h"
+#include "tools/view/panels/ProbeModel.h"
 #include "tools/view/panels/SceneTree.h"
 #include "tools/view/panels/Shortcuts.h"
 
@@ -63,6 +64,8 @@ struct PanelState {
     std::string treeFilter{}, materialFilter{}, optionFilter{}, demandFilter{};
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
     bool showsPanels = true, showsShortcuts = false;
+    std::optional<size_t> selectedProbe{}; ///< of Document::probes
+    BakeSettings bake{};
     PathState path{};
     RecordingSettings recording{};
     FrameKind pictureKind = FrameKind::Png;       ///< of saved images; not Video
@@ -85,6 +88,8 @@ struct PanelRequests {
     bool recordsPath = false, stopsRecording = false; ///< PanelState::path, as PanelState::recording says
     bool inspectsPixel = false; ///< the pixel panel is seen: Panels::pixel is to follow the pointer
     bool togglesPixelLock = false;
+    std::optional<size_t> capturesProbe{};        ///< of Document::probes
+    bool startsBake = false, cancelsBake = false; ///< as PanelState::bake says
     bool measuresCosts = false, cancelsCosts = false;
     bool readsJobs = false; ///< the timeline is seen, and shows what has been recorded
     std::vector<Action> actions{};
@@ -101,6 +106,8 @@ struct PanelInputs {
     bool isCostOfOther = false; ///< the costs are of another scene, camera or size than those of the document
     JobLanes jobs{};
     RecordingProgress recording{};
+    BakeProgress bake{};
+    bool isCapturing = false; ///< a probe
     std::vector<OfferedDefect> defects{};
     std::string compareMode{}, comparedWith{}, identical{}; ///< "wipe", "gles: llvmpipe", "100.0000 %"; empty: none
     bool isDefectActive = false;                            ///< the image that is compared has it

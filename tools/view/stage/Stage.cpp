@@ -69,6 +69,7 @@ struct Stage::Impl {
     void pollLook();
     void pollDirt();
     void pollTextures();
+    void pollProbes();
     void readProfiles(bool again);
     void watchFiles(bool again);
     void watchListed();
@@ -76,7 +77,7 @@ struct Stage::Impl {
     void lookAtFiles();
     bool isLoading() const {
         return model.isLoading() || environment.isLoading() || lookFile.isLoading() || dirt.isLoading() ||
-               textures.isLoading() || listing;
+               textures.isLoading() || probes.isLoading() || listing;
     }
     template <class SlotType>
     void finish(SlotType& slot, Result<typename std::remove_reference_t<decltype(*slot.value())>>&& result);
@@ -106,6 +107,7 @@ struct Stage::Impl {
     Slot<DirtLoad, std::filesystem::path> dirt;
     Profiles profiles;
     LoadedTextures textures;
+    LoadedProbes probes;
     FileWatch watch;
     std::vector<std::filesystem::path> watchedOthers, modelFiles; ///< the latter: of watchedModel
     std::filesystem::path watchedModel;
@@ -128,6 +130,7 @@ void Stage::Impl::startLoads(bool again) {
     (void)lookFile.want(engine, document.look, !document.look.empty(), again, abandoned);
     const auto endedDirt = dirt.want(engine, document.dirt, !document.dirt.empty(), again, abandoned);
     textures.want(document.textures, again, abandoned);
+    probes.want(engine, document, again, abandoned, messages);
     readProfiles(again);
     watchFiles(again);
     if (endedModel)
@@ -183,6 +186,10 @@ void Stage::Impl::pollDirt() {
 
 void Stage::Impl::pollTextures() {
     if (textures.poll(engine, messages)) rebuild();
+}
+
+void Stage::Impl::pollProbes() {
+    if (probes.poll(engine, options.sliceBytes, messages)) rebuild();
 }
 
 /// Small files, so at once. One that cannot be read leaves its light without a profile.
@@ -278,8 +285,9 @@ void Stage::Impl::rebuild() {
     shown = wanted();
     LoadedModel* loaded = model.value() ? &*model.value() : nullptr;
     scene.reset();
-    scene = std::make_unique<StagedScene>(engine, loaded, profiles, textures, shown, messages);
+    scene = std::make_unique<StagedScene>(engine, loaded, profiles, textures, probes, shown, messages);
     textures.dropRetired();
+    probes.dropRetired();
     ++generation;
     light();
     updateView();
@@ -349,6 +357,7 @@ void Stage::poll() {
     mImpl->pollLook();
     mImpl->pollDirt();
     mImpl->pollTextures();
+    mImpl->pollProbes();
 }
 
 StageProgress Stage::progress() const {
@@ -366,6 +375,7 @@ StageProgress Stage::progress() const {
     add(mImpl->document.look, mImpl->lookFile.state());
     add(mImpl->document.dirt, mImpl->dirt.state());
     if (const auto file = mImpl->textures.firstLoading()) add(*file, LoadState{ .step = "decoding" });
+    if (const auto file = mImpl->probes.firstLoading()) add(*file, LoadState{ .step = "filtering" });
     return progress;
 }
 
@@ -380,6 +390,7 @@ void Stage::cancel() {
     mImpl->lookFile.drop(mImpl->abandoned);
     mImpl->dirt.drop(mImpl->abandoned);
     mImpl->textures.drop(mImpl->abandoned);
+    mImpl->probes.drop(mImpl->abandoned);
 }
 
 void Stage::reload() {

@@ -28,6 +28,12 @@ bool hasSameLights(Document const& a, Document const& b) {
     });
 }
 
+/// Of probes and grids: the same ones are there.
+bool hasSameProbes(Document const& a, Document const& b) {
+    const auto isSame = [](auto const& x, auto const& y) { return x.isOn == y.isOn && x.file == y.file; };
+    return areSame(a.probes, b.probes, isSame) && areSame(a.grids, b.grids, isSame);
+}
+
 std::vector<uint32_t> modelLightsOff(Document const& document) {
     std::vector<uint32_t> off;
     for (ModelLightEdit const& edit : document.modelLights) {
@@ -66,8 +72,8 @@ void addBelow(Scene const& scene, Node node, std::vector<Node>& nodes) {
 } // namespace
 
 StagedScene::StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, LoadedTextures const& textures,
-                         Document const& document, Messages& messages)
-        : mEngine(engine), mModel(model), mScene(engine) {
+                         LoadedProbes const& probes, Document const& document, Messages& messages)
+        : mEngine(engine), mModel(model), mLoadedProbes(probes), mScene(engine) {
     placeModel(document);
     if (mRoot) recordFile();
     if (mCopy && !document.model.variant.empty()) messages.addOnce(mCopy->setVariant(document.model.variant));
@@ -77,6 +83,7 @@ StagedScene::StagedScene(Engine& engine, LoadedModel* model, Profiles const& pro
     setVisibility(document, messages);
     setPose(document, messages);
     addLights(document, profiles);
+    addProbes(document);
 }
 
 void StagedScene::placeModel(Document const& document) {
@@ -114,7 +121,8 @@ void StagedScene::recordFile() {
 
 bool StagedScene::needsAnother(Document const& from, Document const& to) {
     return from.model.fit != to.model.fit || from.model.variant != to.model.variant || !editsSameParameters(from, to) ||
-           from.textures != to.textures || !hasSameLights(from, to) || modelLightsOff(from) != modelLightsOff(to);
+           from.textures != to.textures || !hasSameLights(from, to) || !hasSameProbes(from, to) ||
+           modelLightsOff(from) != modelLightsOff(to);
 }
 
 void StagedScene::update(Document const& from, Document const& to, Messages& messages) {
@@ -129,6 +137,7 @@ void StagedScene::update(Document const& from, Document const& to, Messages& mes
         mDocumentLights[i] = withProfileHandle(to.lights[i].light, profileOf(mDocumentLights[i]));
         mScene.set(mLights[i], mDocumentLights[i]);
     }
+    moveProbes(from, to);
 }
 
 // ---- lights
@@ -164,6 +173,30 @@ void StagedScene::setModelLights(Document const& document, Messages& messages) {
             LightDesc const& ofFile = mLightsOfFile[i];
             mScene.set(light.light, isReplaced ? withProfileHandle(*edits[i]->replacement, profileOf(ofFile)) : ofFile);
         }
+    }
+}
+
+// ---- probes and grids
+
+void StagedScene::addProbes(Document const& document) {
+    for (DocumentProbe const& probe : document.probes) {
+        const std::optional<ReflectionProbeDesc> desc = mLoadedProbes.find(probe);
+        mProbes.push_back(desc ? mScene.add(*desc) : ReflectionProbe{});
+    }
+    for (DocumentGrid const& grid : document.grids) {
+        const std::optional<IrradianceGridDesc> desc = mLoadedProbes.find(grid);
+        mGrids.push_back(desc ? mScene.add(*desc) : IrradianceGrid{});
+    }
+}
+
+void StagedScene::moveProbes(Document const& from, Document const& to) {
+    for (size_t i = 0; i < mProbes.size(); ++i) {
+        if (!mProbes[i] || from.probes[i] == to.probes[i]) continue;
+        if (const auto desc = mLoadedProbes.find(to.probes[i])) mScene.set(mProbes[i], *desc);
+    }
+    for (size_t i = 0; i < mGrids.size(); ++i) {
+        if (!mGrids[i] || from.grids[i] == to.grids[i]) continue;
+        if (const auto desc = mLoadedProbes.find(to.grids[i])) mScene.set(mGrids[i], *desc);
     }
 }
 

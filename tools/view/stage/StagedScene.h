@@ -9,6 +9,7 @@
 
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Loaded.h"
+#include "tools/view/stage/LoadedProbes.h"
 #include "tools/view/stage/LoadedTextures.h"
 #include "tools/view/stage/Messages.h"
 
@@ -29,7 +30,7 @@ using Profiles = std::map<std::filesystem::path, Owned<LightProfile>>;
 class StagedScene {
 public:
     StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, LoadedTextures const& textures,
-                Document const& document, Messages& messages);
+                LoadedProbes const& probes, Document const& document, Messages& messages);
     ~StagedScene() = default;
     StagedScene(StagedScene const&) = delete;
     StagedScene& operator=(StagedScene const&) = delete;
@@ -64,6 +65,8 @@ private:
     void placeModel(Document const& document);
     void recordFile();
     void addLights(Document const& document, Profiles const& profiles);
+    void addProbes(Document const& document);
+    void moveProbes(Document const& from, Document const& to);
     void setMaterials(Document const& document, Messages& messages);
     void setModelLights(Document const& document, Messages& messages);
     void setVisibility(Document const& document, Messages& messages);
@@ -75,6 +78,7 @@ private:
 
     Engine& mEngine;
     LoadedModel* mModel; ///< null: nothing
+    LoadedProbes const& mLoadedProbes;
     Scene mScene;
     Node mRoot{};
     std::optional<ModelCopy> mCopy;
@@ -87,6 +91,8 @@ private:
     std::vector<Morph> mMorphs;
     std::vector<LightDesc> mDocumentLights; ///< with their profiles
     std::vector<Light> mLights;             ///< of them; none: off
+    std::vector<ReflectionProbe> mProbes;   ///< of the document; none: off, or without light
+    std::vector<IrradianceGrid> mGrids;
 };
 
 } // namespace filament_core::view

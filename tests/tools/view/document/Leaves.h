@@ -214,6 +214,8 @@ inline Document fullDocument() {
     document.textures = { { "paint", "baseColorMap", "wood.png", false }, { "paint", "normalMap", "bumps.png", true } };
     document.lights = { { .light = SunLight{} },  { .light = PointLight{} }, { .light = SpotLight{} },
                         { .light = RectLight{} }, { .light = DiscLight{} },  { .light = TubeLight{} } };
+    document.probes = { { .name = "room", .file = "room.ktx2" } };
+    document.grids = { { .file = "room.grid" } };
     document.modelLights = { { .light = 0 }, { .light = 2, .replacement = SpotLight{ .innerConeRadians = 0.1f } } };
     document.playback.animation = 2;
     document.morphs = { { .target = "smile", .weight = 0.5f } };

@@ -47,6 +47,8 @@ Image pictureOf(PanelStage& stage, std::string_view panel) {
     stage.panels.state.selectedNode = 1;
     stage.panels.state.selectedMaterial = "canvas";
     stage.panels.state.selectedLight = view::LightSelection{ false, 0 };
+    if (stage.document.probes.empty()) addProbe(stage.document, stage.stage->bounds());
+    stage.panels.state.selectedProbe = 0;
     if (stage.document.paths.empty())
         addKey(shownPath(stage.document, stage.panels.state.path), stage.panels.state.path, stage.document.view.camera);
     for (int i = 0; i < 3; ++i) stage.frame();
