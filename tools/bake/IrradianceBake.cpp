@@ -13,6 +13,8 @@ namespace {
 
 using reference::TracedScene;
 
+constexpr double kFarthestCenter = 1e12; // metres
+
 double luminanceOf(float3 color) { return double{ glm::dot(color, float3(0.2126f, 0.7152f, 0.0722f)) }; }
 
 /// The luminance of irradiance / pi of surfaces that face along the six directions of the axes.
@@ -155,6 +157,9 @@ Result<void> checkGridSettings(GridSettings const& settings) {
     float3 const& half = settings.box.halfExtentMeters;
     for (int axis = 0; axis < 3; ++axis)
         if (!(half[axis] > 0 && half[axis] <= 1e9f)) return invalid("half a side of its box is not in (0, 1e9] metres");
+    for (int axis = 0; axis < 3; ++axis) // Embree stops the program at rays that begin beyond 1.8e18
+        if (!isIn(std::abs(settings.box.centerWorld[axis]), 0, kFarthestCenter))
+            return invalid("the middle of its box is not within 1e12 metres");
     if (!(settings.spacingMeters > 0 && settings.spacingMeters <= 1e6f))
         return invalid("its spacing is not in (0, 1e6]");
     if (!isIn(settings.maxProbes, 1, IrradianceProbes::kMaxProbes)) return invalid("maxProbes is not in [1, 2^20]");

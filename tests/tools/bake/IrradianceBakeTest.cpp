@@ -313,6 +313,7 @@ TEST_F(IrradianceBake, SettingsOutsideOfTheirRangesAreAnErrorOfOneLine) {
                  [](GridSettings& s) { s.spacingMeters = 0; }, [](GridSettings& s) { s.maxProbes = 0; },
                  [](GridSettings& s) { s.box.halfExtentMeters.y = -1; }, [](GridSettings& s) { s.maxError = -1; },
                  [](GridSettings& s) { s.heldOutPoints = 0; }, [](GridSettings& s) { s.judgedPoints = 65537; },
+                 [](GridSettings& s) { s.box.centerWorld.z = 1e13; },
                  [](GridSettings& s) { s.box.centerWorld.x = std::numeric_limits<double>::infinity(); },
                  [](GridSettings& s) { s.box.halfExtentMeters.x = 0; },
                  [](GridSettings& s) { s.probes.depthSize = 33; } }) {
