@@ -26,6 +26,7 @@ using ModelObject = Held<Model>;
 using EnvironmentObject = Held<Environment>;
 using SceneObject = Held<Scene>;
 using TextureObject = Held<Owned<Texture>>;
+using LightImageObject = Held<Owned<LightImage>>;
 
 struct OwnedMaterial {
     Owned<Material> material;

@@ -169,6 +169,36 @@ std::shared_ptr<TextureObject> loadTexture(EngineObject const& self, std::filesy
     return makeTexture(self, valueOf(std::move(image)), path.filename().string());
 }
 
+std::shared_ptr<LightImageObject> makeLightImage(EngineObject const& self, Image const& image, std::string const& shape,
+                                                 std::string const& name) {
+    const auto known = enumFromName<LightImageShape>(shape);
+    if (!known) raiseInvalid("shape: '{}' is not {}", shape, listed(enumNames<LightImageShape>()));
+    const Owner::Call call(*self.owner);
+    Engine& engine = call.engine();
+    Result<LightImage> made = released([&] {
+        return engine.create(LightImageDesc{ .width = image.width,
+                                             .height = image.height,
+                                             .format = image.format,
+                                             .pixels = image.pixels,
+                                             .shape = *known,
+                                             .name = name });
+    });
+    return std::make_shared<LightImageObject>(self.owner, engine.own(valueOf(std::move(made))));
+}
+
+std::shared_ptr<LightImageObject> lightImageOfArray(EngineObject const& self, py::object const& pixels,
+                                                    std::string const& shape, bool srgb, std::string const& name) {
+    Image image = pictureOf(pixels, "pixels").image();
+    if (srgb && image.format == Format::RGBA8) image.format = Format::RGBA8Srgb;
+    return makeLightImage(self, image, shape, name);
+}
+
+std::shared_ptr<LightImageObject> loadLightImageFile(EngineObject const& self, std::filesystem::path const& path,
+                                                     std::string const& shape) {
+    Result<Image> image = released([&] { return loadImage(path); });
+    return makeLightImage(self, valueOf(std::move(image)), shape, path.filename().string());
+}
+
 py::list animationsOf(ModelObject const& self) {
     const Owner::Call call(*self.owner());
     py::list list;
@@ -205,6 +235,8 @@ void bindLoaded(py::module_& module) {
                                    "The same as text, or why there is none; empty with sun='keep'.");
     py::class_<TextureObject, std::shared_ptr<TextureObject>>(
             module, "Texture", "A picture on the device, for parameters of materials. From Engine.texture().");
+    py::class_<LightImageObject, std::shared_ptr<LightImageObject>>(
+            module, "LightImage", "A picture that lights project, their cookie. From Engine.light_image().");
 }
 
 void bindLoading(EngineClass& engine) {
@@ -228,7 +260,13 @@ void bindLoading(EngineClass& engine) {
                  py::arg("name") = "",
                  "A texture with all mip levels from a picture: uint8 codes of sRGB (srgb=False: data), or floats.")
             .def("load_texture", &loadTexture, py::arg("path"), py::kw_only(), py::arg("content") = "color",
-                 "A texture from a PNG, JPEG, HDR or EXR file; content is color or data (normals, roughness).");
+                 "A texture from a PNG, JPEG, HDR or EXR file; content is color or data (normals, roughness).")
+            .def("light_image", &lightImageOfArray, py::arg("pixels"), py::kw_only(), py::arg("shape") = "projected",
+                 py::arg("srgb") = true, py::arg("name") = "",
+                 "A cookie of lights from a picture: projected (of spots), tiled (of suns), octahedron or cube (of "
+                 "points).")
+            .def("load_light_image", &loadLightImageFile, py::arg("path"), py::kw_only(),
+                 py::arg("shape") = "projected", "A cookie of lights from an image file; see light_image().");
 }
 
 } // namespace

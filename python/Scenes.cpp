@@ -45,31 +45,57 @@ std::shared_ptr<LightObject> addLight(std::shared_ptr<SceneObject> const& self, 
     return std::make_shared<LightObject>(LightObject{ self, light });
 }
 
+/// Null without one.
+LightImage cookieOf(SceneObject const& self, std::shared_ptr<LightImageObject> const& cookie,
+                    std::initializer_list<LightImageShape> shapes) {
+    if (!cookie) return {};
+    requireSame(*self.owner(), *cookie, "cookie");
+    const LightImage image = (*cookie)->get();
+    const Owner::Call call(*self.owner());
+    const LightImageShape shape = call.engine().describe(image).shape;
+    if (std::ranges::find(shapes, shape) == shapes.end())
+        raiseInvalid("cookie: its shape is {}, which this kind of light does not have", toString(shape));
+    return image;
+}
+
 std::shared_ptr<LightObject> addSun(std::shared_ptr<SceneObject> const& self, py::object const& direction,
                                     double illuminance, py::object const& color, double radiusDegrees, bool showsDisc,
-                                    bool castsShadows, bool contactShadows) {
+                                    bool castsShadows, bool contactShadows,
+                                    std::shared_ptr<LightImageObject> const& cookie, double cookieMeters,
+                                    py::object const& up) {
     const auto radius = static_cast<float>(numberIn(radiusDegrees, "angular_radius_degrees", 0, 20));
-    return addLight(self, SunLight{ .directionWorld = directionOf(direction, "direction"),
-                                    .illuminance = Lux{ quantityOf(illuminance, "illuminance") },
-                                    .color = colorOf(color, "color"),
-                                    .angularRadiusDegrees = radius,
-                                    .showsDisc = showsDisc,
-                                    .castsShadows = castsShadows,
-                                    .contactShadows = contactShadows });
+    return addLight(self,
+                    SunLight{ .directionWorld = directionOf(direction, "direction"),
+                              .illuminance = Lux{ quantityOf(illuminance, "illuminance") },
+                              .color = colorOf(color, "color"),
+                              .angularRadiusDegrees = radius,
+                              .showsDisc = showsDisc,
+                              .castsShadows = castsShadows,
+                              .contactShadows = contactShadows,
+                              .cookie = cookieOf(*self, cookie, { LightImageShape::Tiled }),
+                              .cookieMeters = static_cast<float>(numberIn(cookieMeters, "cookie_meters", 1e-3, 1e9)),
+                              .upWorld = directionOf(up, "up") });
 }
 
 std::shared_ptr<LightObject> addPoint(std::shared_ptr<SceneObject> const& self, py::object const& position,
-                                      double intensity, py::object const& color, double range, bool castsShadows) {
+                                      double intensity, py::object const& color, double range, bool castsShadows,
+                                      std::shared_ptr<LightImageObject> const& cookie, py::object const& direction,
+                                      py::object const& up) {
+    const LightImage image = cookieOf(*self, cookie, { LightImageShape::Octahedron, LightImageShape::Cube });
     return addLight(self, PointLight{ .positionWorld = double3Of(position, "position"),
                                       .intensity = Candela{ quantityOf(intensity, "intensity") },
                                       .color = colorOf(color, "color"),
                                       .rangeMeters = quantityOf(range, "range"),
-                                      .castsShadows = castsShadows });
+                                      .castsShadows = castsShadows,
+                                      .cookie = image,
+                                      .directionWorld = directionOf(direction, "direction"),
+                                      .upWorld = directionOf(up, "up") });
 }
 
 std::shared_ptr<LightObject> addSpot(std::shared_ptr<SceneObject> const& self, py::object const& position,
                                      py::object const& direction, double intensity, double innerDegrees,
-                                     double outerDegrees, py::object const& color, double range, bool castsShadows) {
+                                     double outerDegrees, py::object const& color, double range, bool castsShadows,
+                                     std::shared_ptr<LightImageObject> const& cookie, py::object const& up) {
     constexpr double kRadians = std::numbers::pi / 180;
     const auto outer = static_cast<float>(numberIn(outerDegrees, "outer_degrees", 0.01, 90) * kRadians);
     const auto inner = static_cast<float>(numberIn(innerDegrees, "inner_degrees", 0, 90) * kRadians);
@@ -81,7 +107,9 @@ std::shared_ptr<LightObject> addSpot(std::shared_ptr<SceneObject> const& self, p
                                      .rangeMeters = quantityOf(range, "range"),
                                      .innerConeRadians = inner,
                                      .outerConeRadians = std::min(outer, 1.5707963f),
-                                     .castsShadows = castsShadows });
+                                     .castsShadows = castsShadows,
+                                     .cookie = cookieOf(*self, cookie, { LightImageShape::Projected }),
+                                     .upWorld = directionOf(up, "up") });
 }
 
 void setEnvironment(SceneObject const& self, py::object const& source, double illuminance, double rotationDegrees,
@@ -163,17 +191,24 @@ void bindParts(py::module_& module) {
 }
 
 void bindLights(SceneClass& scene) {
-    const py::tuple white = py::make_tuple(1, 1, 1);
+    const py::tuple white = py::make_tuple(1, 1, 1), upwards = py::make_tuple(0, 1, 0);
     scene.def("add_sun", &addSun, py::arg("direction"), py::arg("illuminance") = 110'000.0, py::kw_only(),
               py::arg("color") = white, py::arg("angular_radius_degrees") = 0.2665, py::arg("shows_disc") = false,
-              py::arg("casts_shadows") = true, py::arg("contact_shadows") = false,
-              "Parallel light that travels in `direction`; lux on a surface that faces it.")
+              py::arg("casts_shadows") = true, py::arg("contact_shadows") = false, py::arg("cookie") = py::none(),
+              py::arg("cookie_meters") = 10.0, py::arg("up") = upwards,
+              "Parallel light that travels in `direction`; lux on a surface that faces it. A tiled `cookie` repeats "
+              "every `cookie_meters`.")
             .def("add_point_light", &addPoint, py::arg("position"), py::arg("intensity") = 100.0, py::kw_only(),
                  py::arg("color") = white, py::arg("range") = 0.0, py::arg("casts_shadows") = true,
-                 "A lamp of so many candela; beyond `range` metres it is dark, 0 is no limit.")
+                 py::arg("cookie") = py::none(), py::arg("direction") = py::make_tuple(0, 0, -1),
+                 py::arg("up") = upwards,
+                 "A lamp of so many candela; beyond `range` metres it is dark, 0 is no limit. `direction` and `up` "
+                 "turn "
+                 "its `cookie`, an octahedron or a cube.")
             .def("add_spot_light", &addSpot, py::arg("position"), py::arg("direction"), py::arg("intensity") = 100.0,
                  py::kw_only(), py::arg("inner_degrees") = 0.0, py::arg("outer_degrees") = 45.0,
                  py::arg("color") = white, py::arg("range") = 0.0, py::arg("casts_shadows") = true,
+                 py::arg("cookie") = py::none(), py::arg("up") = upwards,
                  "A lamp with a cone; the angles are those between its middle and its sides.");
 }
 

@@ -16,13 +16,13 @@ docs/python.md is the manual; filament_core.reports reads what filament-conforma
 """
 from . import reports
 from ._core import (ClosedError, Comparison, CorruptError, DeviceError, Engine, Environment, Error, InvalidArgumentError,
-                    Light, Material, MaterialInstance, Mesh, Model, ModelCopy, NotFoundError, OutOfMemoryError,
+                    Light, LightImage, Material, MaterialInstance, Mesh, Model, ModelCopy, NotFoundError, OutOfMemoryError,
                     ReflectionProbe, Renderer, Scene, Shape, Texture, ThreadError, UnreadableError, UnsupportedError, View, __version__, compare,
                     compile_material, compile_material_text, difference, flip, list_devices, load_picture, options,
                     save_picture)
 
 __all__ = ["ClosedError", "Comparison", "CorruptError", "DeviceError", "Engine", "Environment", "Error",
-           "InvalidArgumentError", "Light", "Material", "MaterialInstance", "Mesh", "Model", "ModelCopy", "NotFoundError",
+           "InvalidArgumentError", "Light", "LightImage", "Material", "MaterialInstance", "Mesh", "Model", "ModelCopy", "NotFoundError",
            "OutOfMemoryError", "ReflectionProbe", "Renderer", "Scene", "Shape", "Texture", "ThreadError", "UnreadableError",
            "UnsupportedError", "View", "__version__", "compare", "compile_material", "compile_material_text", "difference",
            "flip", "list_devices", "load_picture", "options", "reports", "save_picture"]

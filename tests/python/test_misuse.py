@@ -84,6 +84,12 @@ class Messages(unittest.TestCase):
         self.fails(fc.InvalidArgumentError, "last row", self.scene.add_mesh, quad(self.engine), material,
                    transform=np.ones((4, 4)))
         self.fails(fc.InvalidArgumentError, "direction is zero", self.scene.add_sun, (0, 0, 0))
+        tile = self.engine.light_image(np.ones((2, 2, 4), np.float32), shape="tiled")
+        self.fails(fc.InvalidArgumentError, "cookie: its shape is tiled", self.scene.add_spot_light, (0, 0, 0), (0, 0, 1),
+                   cookie=tile)
+        self.scene.add_sun((0, -1, 0), cookie=tile, cookie_meters=2, up=(1, 0, 0)).remove()
+        self.fails(fc.InvalidArgumentError, "shape: 'round' is not", self.engine.light_image,
+                   np.ones((2, 2, 4), np.float32), shape="round")
         self.fails(fc.InvalidArgumentError, "inner_degrees", self.scene.add_spot_light, (0, 0, 0), (0, 0, 1),
                    inner_degrees=50, outer_degrees=40)
         self.fails(fc.InvalidArgumentError, "illuminance", self.scene.add_sun, (0, 0, 1), float("inf"))
