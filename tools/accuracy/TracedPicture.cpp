@@ -14,18 +14,21 @@ namespace {
 using reference::ReferenceScene;
 using tools::SceneSpec;
 
-void add(ReferenceScene& scene, LightDesc const& light, reference::ProfilePtr const& profile) {
+void add(ReferenceScene& scene, LightDesc const& light, reference::ProfilePtr const& profile,
+         reference::LightPicturePtr const& image) {
     std::visit(
             [&](auto const& one) {
                 using L = std::remove_cvref_t<decltype(one)>;
                 if constexpr (std::is_same_v<L, SunLight>)
-                    scene.suns.push_back(one);
+                    scene.suns.push_back(one), scene.sunImages.push_back(image);
                 else if constexpr (std::is_same_v<L, PointLight>)
-                    scene.points.push_back(one), scene.pointProfiles.push_back(profile);
+                    scene.points.push_back(one), scene.pointProfiles.push_back(profile),
+                            scene.pointImages.push_back(image);
                 else if constexpr (std::is_same_v<L, SpotLight>)
-                    scene.spots.push_back(one), scene.spotProfiles.push_back(profile);
+                    scene.spots.push_back(one), scene.spotProfiles.push_back(profile),
+                            scene.spotImages.push_back(image);
                 else if constexpr (std::is_same_v<L, RectLight>)
-                    scene.rects.push_back(one);
+                    scene.rects.push_back(one), scene.rectImages.push_back(image);
                 else if constexpr (std::is_same_v<L, DiscLight>)
                     scene.discs.push_back(one);
                 else
@@ -42,6 +45,14 @@ Result<reference::ProfilePtr> profileOf(std::filesystem::path const& file) {
     Result<assets::IesFile> profile = assets::readIes(*bytes, file.filename().string());
     if (!profile) return profile.error();
     return std::make_shared<const assets::IesFile>(std::move(*profile));
+}
+
+/// Null without a file.
+Result<reference::LightPicturePtr> imageOf(tools::LightImageFile const& image) {
+    if (image.file.empty()) return reference::LightPicturePtr();
+    const Result<Image> loaded = loadImage(image.file);
+    if (!loaded) return loaded.error();
+    return reference::lightPictureOf(*loaded, image.shape);
 }
 
 /// Copies of a material may differ, those of a model do not.
@@ -79,7 +90,9 @@ Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, tools::SceneFolde
     for (size_t i = 0; i < lights.size(); ++i) {
         Result<reference::ProfilePtr> profile = profileOf(profileFile(spec, i, folders));
         if (!profile) return profile.error();
-        add(scene, lights[i], *profile);
+        Result<reference::LightPicturePtr> image = imageOf(imageFile(spec, i, folders));
+        if (!image) return image.error();
+        add(scene, lights[i], *profile, *image);
     }
 
     const Result<std::filesystem::path> skyPath = environmentFile(spec, folders);

@@ -82,6 +82,30 @@ void DirectLights::setProfile(Light& light, std::vector<ProfilePtr> const& profi
     light.profileX = glm::cross(light.axis, across(light.axis, double3(up)));
 }
 
+void DirectLights::setImage(Light& light, std::vector<LightPicturePtr> const& images, size_t index, float3 direction,
+                            float3 up) {
+    if (index >= images.size() || !images[index]) return;
+    light.image = images[index];
+    light.axis = glm::normalize(double3(direction));
+    light.imageRight = glm::cross(light.axis, across(light.axis, double3(up)));
+    light.imageDown = glm::cross(light.axis, light.imageRight);
+}
+
+/// By its image, at a point.
+double3 DirectLights::colorOf(Light const& light, double3 position) {
+    if (!light.image) return double3(1.0);
+    const double3 from = position - light.position;
+    const double2 at(glm::dot(from, light.imageRight), glm::dot(from, light.imageDown));
+    if (light.isSun) return light.image->at(at + light.imageOffset);
+    const double forward = glm::dot(from, light.axis);
+    if (!light.isSpot) return light.image->towards({ at.x, at.y, forward });
+    if (forward <= 0) return double3(0.0);
+    const double2 place = at / forward + 0.5;
+    const bool isInside =
+            glm::all(glm::greaterThanEqual(place, double2(0.0))) && glm::all(glm::lessThanEqual(place, double2(1.0)));
+    return isInside ? light.image->at(place) : double3(0.0);
+}
+
 /// Of its intensity, in a unit direction from the light.
 double DirectLights::shareOf(Light const& light, double3 away) {
     if (!light.profile) return 1;
@@ -92,7 +116,8 @@ double DirectLights::shareOf(Light const& light, double3 away) {
 
 DirectLights::DirectLights(LightSet const& lights, double factor) {
     const auto scaled = [&](LinearColor color, float value) { return double3(color) * (double(value) * factor); };
-    for (SunLight const& sun : lights.suns) {
+    for (size_t i = 0; i < lights.suns.size(); ++i) {
+        SunLight const& sun = lights.suns[i];
         mLights.push_back({ .isSun = true,
                             .axis = glm::normalize(double3(sun.directionWorld)),
                             .intensity = scaled(sun.color, sun.illuminance.value),
@@ -101,6 +126,14 @@ DirectLights::DirectLights(LightSet const& lights, double factor) {
                             .showsDisc = sun.showsDisc,
                             .haloSize = sun.haloSize,
                             .haloFalloff = sun.haloFalloff });
+        setImage(mLights.back(), lights.sunImages, i, sun.directionWorld, sun.upWorld);
+        if (!mLights.back().image) continue;
+        Light& light = mLights.back();
+        const double2 meters = double(sun.cookieMeters) * double2(1, light.image->aspect());
+        light.imageRight /= meters.x, light.imageDown /= meters.y;
+        light.imageOffset =
+                double2(glm::dot(lights.origin, light.imageRight), glm::dot(lights.origin, light.imageDown)) -
+                double2(sun.cookieOffsetMeters) / meters;
     }
     for (size_t i = 0; i < lights.points.size(); ++i) {
         PointLight const& point = lights.points[i];
@@ -110,6 +143,7 @@ DirectLights::DirectLights(LightSet const& lights, double factor) {
                             .radius = point.sourceRadiusMeters,
                             .castsShadows = point.castsShadows });
         setProfile(mLights.back(), lights.pointProfiles, i, point.directionWorld, point.upWorld);
+        setImage(mLights.back(), lights.pointImages, i, point.directionWorld, point.upWorld);
     }
     for (size_t i = 0; i < lights.spots.size(); ++i) {
         SpotLight const& spot = lights.spots[i];
@@ -127,8 +161,18 @@ DirectLights::DirectLights(LightSet const& lights, double factor) {
                             .radius = spot.sourceRadiusMeters,
                             .castsShadows = spot.castsShadows });
         setProfile(mLights.back(), lights.spotProfiles, i, spot.directionWorld, spot.upWorld);
+        setImage(mLights.back(), lights.spotImages, i, spot.directionWorld, spot.upWorld);
+        if (!mLights.back().image) continue;
+        // The shorter side touches the cone.
+        const double width = 2 * std::tan(std::min<double>(spot.outerConeRadians, glm::radians(80.0)));
+        const double aspect = mLights.back().image->aspect();
+        mLights.back().imageRight /= width * std::max(1 / aspect, 1.0);
+        mLights.back().imageDown /= width * std::max(aspect, 1.0);
     }
-    for (RectLight const& rect : lights.rects) add(rect, factor);
+    for (size_t i = 0; i < lights.rects.size(); ++i) {
+        add(lights.rects[i], factor);
+        if (i < lights.rectImages.size()) mLights.back().image = lights.rectImages[i];
+    }
     for (DiscLight const& disc : lights.discs) add(disc, factor);
     for (TubeLight const& tube : lights.tubes) add(tube, factor);
     mHasVisible = std::ranges::any_of(mLights, &Light::isVisible);
@@ -212,8 +256,9 @@ DirectSample DirectLights::arrivingFromArea(Light const& light, double3 position
     const double facing = -glm::dot(direction, emitter.normal);
     const double cosine = light.isTwoSided ? std::abs(facing) : std::max(facing, 0.0);
     const double window = lib::rangeWindow(light.position - position, light.inverseSquaredRange);
+    const double3 emitted = light.image ? light.image->at(double2(1.0) - u) : double3(1.0); // seen from its front
     return { .direction = direction,
-             .illuminance = light.intensity * (cosine * window * light.area / (distance * distance)),
+             .illuminance = light.intensity * emitted * (cosine * window * light.area / (distance * distance)),
              .distance = distance,
              .castsShadows = light.castsShadows };
 }
@@ -232,7 +277,7 @@ DirectSample DirectLights::arriving(Light const& light, double3 position, double
     if (light.shape != Light::Shape::None) return arrivingFromArea(light, position, onArea);
     if (light.isSun)
         return { .direction = -light.axis,
-                 .illuminance = light.intensity,
+                 .illuminance = light.intensity * colorOf(light, position),
                  .radius = light.radius,
                  .castsShadows = light.castsShadows };
     const double3 toLight = light.position - position;
@@ -244,7 +289,8 @@ DirectSample DirectLights::arriving(Light const& light, double3 position, double
         attenuation *= lib::spotAttenuation(direction, light.axis, light.spotScale, light.spotOffset);
     }
     attenuation *= shareOf(light, -direction);
-    return { direction, light.intensity * attenuation, distance, light.radius / distance, light.castsShadows };
+    return { direction, light.intensity * colorOf(light, position) * attenuation, distance, light.radius / distance,
+             light.castsShadows };
 }
 
 DirectSample DirectLights::sample(double3 position, double u, double2 onArea) const {

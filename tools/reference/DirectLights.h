@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/math/Math.h"
+#include "tools/reference/LightPictures.h"
 #include "tools/reference/LightProfiles.h"
 
 #include <filament_core/Light.h>
@@ -22,8 +23,8 @@
 
 namespace filament_core::reference {
 
-/// What shines besides the environment and surfaces. Profiles of points and spots are in lists of their own, parallel
-/// to the lights; a missing or null one: none. Handles such as PointLight::profile mean nothing here.
+/// What shines besides the environment and surfaces. Profiles and images are in lists of their own, parallel to the
+/// lights; a missing or null one: none. Handles such as PointLight::profile mean nothing here.
 struct LightSet {
     std::vector<SunLight> suns{}; ///< all of them shine
     std::vector<PointLight> points{};
@@ -32,6 +33,8 @@ struct LightSet {
     std::vector<DiscLight> discs{};
     std::vector<TubeLight> tubes{};
     std::vector<ProfilePtr> pointProfiles{}, spotProfiles{};
+    std::vector<LightPicturePtr> sunImages{}, pointImages{}, spotImages{}, rectImages{};
+    double3 origin{ 0.0 }; ///< of all positions, in the world: images of suns begin at the world's own
 };
 
 struct DirectSample {
@@ -81,7 +84,10 @@ private:
         double area = 0;                    // m^2 of one side
         ProfilePtr profile{};               // its -Z is `axis`
         double3 profileX{ 0.0 };            // unit
-        bool showsDisc = false;             // suns
+        LightPicturePtr image{};            // right and down, in images a metre (of spots: a metre away):
+        double3 imageRight{ 0.0 }, imageDown{ 0.0 };
+        double2 imageOffset{ 0.0 };
+        bool showsDisc = false; // suns
         double haloSize = 1, haloFalloff = 0;
     };
     /// A point of an area, and the direction in which it shines.
@@ -97,6 +103,10 @@ private:
     static void setProfile(Light& light, std::vector<ProfilePtr> const& profiles, size_t index, float3 direction,
                            float3 up);
     static double shareOf(Light const& light, double3 away);
+    /// Turned to the direction and the side; 1 image a metre.
+    static void setImage(Light& light, std::vector<LightPicturePtr> const& images, size_t index, float3 direction,
+                         float3 up);
+    static double3 colorOf(Light const& light, double3 position);
     void add(RectLight const& rect, double factor);
     void add(DiscLight const& disc, double factor);
     void add(TubeLight const& tube, double factor);

@@ -17,6 +17,7 @@
 #include "jobsystem/Cancellation.h"
 #include "jobsystem/JobSystem.h"
 #include "tools/reference/BsdfModel.h"
+#include "tools/reference/LightPictures.h"
 #include "tools/reference/LightProfiles.h"
 
 #include <filament_core/Box.h>
@@ -63,6 +64,7 @@ struct ReferenceScene {
     std::vector<DiscLight> discs;
     std::vector<TubeLight> tubes;
     std::vector<ProfilePtr> pointProfiles, spotProfiles; ///< see LightSet
+    std::vector<LightPicturePtr> sunImages, pointImages, spotImages, rectImages;
 };
 
 /// The image-based light of a model's file, for `image` of an environment; null: it names none. The irradiance is that

@@ -247,7 +247,9 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     moveLights(collected.lights, origin);
     traced->mDirectLights = DirectLights({ collected.lights.suns, collected.lights.points, collected.lights.spots,
                                            collected.lights.rects, collected.lights.discs, collected.lights.tubes,
-                                           collected.lights.pointProfiles, collected.lights.spotProfiles },
+                                           collected.lights.pointProfiles, collected.lights.spotProfiles,
+                                           collected.lights.sunImages, collected.lights.pointImages,
+                                           collected.lights.spotImages, collected.lights.rectImages, origin },
                                          1.0);
     return result;
 }
