@@ -43,7 +43,7 @@ InteriorCase galleryInPanels() {
 InteriorCase tokyo() {
     InteriorCase made{ .name = "tokyo", .title = "LittlestTokyo, below its awnings" };
     made.asset = "models/LittlestTokyo/LittlestTokyo.glb";
-    made.environment = "environments/studio_small_03_1k.hdr";
+    made.environment = "environments/spiaggia_di_mondello_1k.hdr";
     made.without = "outline";
     made.cameras = { { { -20, -150, 180 }, { -140, -160, 0 }, 60 },
                      { { -60, -150, 190 }, { -140, -150, 20 }, 60 },
@@ -55,8 +55,7 @@ InteriorCase tokyo() {
     made.probes = { { { -20, -120, 130 }, { 120, 90, 90 } } };
     made.texelsPerMeter = 0.4;
     made.texelSamples = 32;
-    made.gridSpacing = 60;
-    made.mostProbes = 1000;
+    made.gridSpacing = 50;
     return made;
 }
 
