@@ -23,8 +23,7 @@ SCRIPTS = ROOT / "scripts/cluster"
 CONFORMANCE = ["--only", "lines", "unlit", "mask", "--threads", "off", "--mutations", "off"]
 REFERENCE = ["triangle.gltf", "--environment", "none", "--size", "160x90", "--eye", "0", "0", "2", "--sun", "100000", "-1",
              "-1", "-1", "--threads", "1", "--spp"]
-BAKE = ["triangle.gltf", "--environment", "none", "--sun", "100000", "-1", "-1", "-1", "--direct", "on", "--samples", "64",
-        "--density", "24", "--threads", "1"]
+BAKE = ["gallery.glb", "--environment", "gallery.hdr", "--samples", "32", "--density", "2", "--threads", "1"]
 # One lit triangle, facing +z.
 MODEL = """{ "asset": { "version": "2.0" }, "buffers": [ { "byteLength": 36, "uri":
 "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA" } ],
@@ -138,6 +137,7 @@ class Test:
         return [*REFERENCE, samples]
 
     def bakes_with_any_number_of_workers(self):
+        subprocess.run([self.bin / "filament-accuracy", "--rooms", self.work], check=True, stdout=subprocess.DEVNULL)
         self.draw_whole("whole-bake", "bake", BAKE)
         for workers in (1, 2, 4):
             name = f"bake-{workers}"

@@ -76,7 +76,8 @@ TEST_F(BakeProgram, PartsOnAnyThreadsMergeToTheBytesOfOneRun) {
 // Stopped after a while, by Ctrl-C or by a kill that it does not see coming, and started again: the bytes of a run that
 // nothing stopped.
 TEST_F(BakeProgram, ContinuesAfterCtrlCAndAfterAKill) {
-    const std::string slow = "cornell.glb --density 14 --samples 32 --threads 1 ";
+    write("gallery.glb", interiors::gallery().model);
+    const std::string slow = "gallery.glb --density 4 --samples 32 --threads 1 ";
     ASSERT_EQ(run(slow + "--out whole").status, 0);
     for (const char* signal : { "INT", "KILL" }) {
         const std::string folder = std::string("stopped-") + signal;
