@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights_bench: what a frame costs with 1, 10, 50, 200, ... lamps of half a metre's range above a floor that fills the
-// image, on both APIs. --shapes point rect disc tube profile compares areas, and points with a
-//   profile, with points: --lamps 1 --range 0.
+// image, on both APIs. --shapes point rect disc tube profile cookie compares areas, and points with a
+//   profile or a cookie, with points: --lamps 1 --range 0.
 //   Method  one engine per API; every round draws every number of lamps on each, so that all see the same machine.
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
@@ -45,8 +45,10 @@ std::vector<Case> casesOf(Options const& options) {
     return cases;
 }
 
+constexpr uint32_t kCookieSize = 256;
+
 /// Areas are as bright on the floor as points, from 0.4 metres above it.
-void addLamp(Scene& scene, std::string const& shape, LightProfile profile, double3 at, float range) {
+void addLamp(Scene& scene, std::string const& shape, LightProfile profile, LightImage cookie, double3 at, float range) {
     const Nits nits{ 40'000 };
     const float3 down{ 0, 0, -1 };
     if (shape == "rect")
@@ -73,6 +75,7 @@ void addLamp(Scene& scene, std::string const& shape, LightProfile profile, doubl
                               .intensity = Candela{ 10'000 },
                               .rangeMeters = range,
                               .profile = shape == "profile" ? profile : LightProfile{},
+                              .cookie = shape == "cookie" ? cookie : LightImage{},
                               .directionWorld = down });
 }
 
@@ -102,6 +105,14 @@ public:
         const Result<LightProfile> profile = device->mEngine.create(LightProfileDesc{ std::as_bytes(std::span(text)) });
         if (!profile) return profile.error();
         device->mProfile = device->mEngine.own(*profile);
+        const std::vector<uint32_t> white(size_t{ kCookieSize } * kCookieSize, 0xFFFFFFFF);
+        const Result<LightImage> cookie =
+                device->mEngine.create(LightImageDesc{ .width = kCookieSize,
+                                                       .height = kCookieSize,
+                                                       .pixels = std::as_bytes(std::span(white)),
+                                                       .shape = LightImageShape::Octahedron });
+        if (!cookie) return cookie.error();
+        device->mCookie = device->mEngine.own(*cookie);
         for (Case const& one : casesOf(options)) device->addScene(one);
         return device;
     }
@@ -139,7 +150,8 @@ private:
         for (int i = 0; i < one.lamps; ++i) {
             const double y = i ? -5 + 17 * next() : 0.5, width = 6 + 0.55 * (y + 5);
             const double x = i ? (2 * next() - 1) * width : 0;
-            addLamp(scene, one.shape, mProfile, { x, y, 0.1 + 0.3 * next() }, static_cast<float>(mOptions.range));
+            addLamp(scene, one.shape, mProfile, mCookie, { x, y, 0.1 + 0.3 * next() },
+                    static_cast<float>(mOptions.range));
         }
         mRenderer.render(scene, mView, mTarget);
         mEngine.waitIdle();
@@ -150,6 +162,7 @@ private:
     tools::MaterialStand mFloor;
     std::vector<std::unique_ptr<Scene>> mScenes; // destroyed before the objects that they show
     Owned<LightProfile> mProfile;
+    Owned<LightImage> mCookie;
     Owned<SwapChain> mTarget;
     Renderer mRenderer;
     View mView;
@@ -195,7 +208,8 @@ int main(int argc, char** argv) {
     app.option("--rounds", options.rounds, "rounds; each draws every number of lamps").inRange(1, 1000);
     app.option("--frames", options.frames, "frames a measurement").inRange(1, 1000);
     app.option("--lamps", options.lamps, "numbers of lamps").inRange(0, 100'000);
-    app.option("--shapes", options.shapes, "shapes of lamps").oneOf({ "point", "rect", "disc", "tube", "profile" });
+    app.option("--shapes", options.shapes, "shapes of lamps")
+            .oneOf({ "point", "rect", "disc", "tube", "profile", "cookie" });
     app.option("--range", options.range, "metres; 0: unlimited").inRange(0.0, 1e6);
     if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     const Result<void> done = bench::run(options);
