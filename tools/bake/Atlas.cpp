@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/bake/Atlas.h"
 
+#include "base/Assert.h"
 #include "tools/bake/Packing.h"
 
 #include <cmath>
@@ -14,7 +15,8 @@ constexpr double kMostTexels = 1e9; // of a chart's side, before it is rounded t
 std::optional<Packing> pack(std::vector<AtlasChart>& charts, AtlasOptions const& options) {
     std::vector<uint2> sizes;
     for (AtlasChart& chart : charts) {
-        const double2 texels = glm::min(glm::ceil(chart.chart.size * options.texelsPerMeter), kMostTexels);
+        const double2 texels =
+                glm::min(glm::ceil(chart.chart.size * (options.texelsPerMeter * chart.scale)), kMostTexels);
         chart.size = uint2(texels) + 2 * kPadding;
         if (std::max(chart.size.x, chart.size.y) > options.maxSide) return std::nullopt;
         sizes.push_back(chart.size);
@@ -59,6 +61,8 @@ Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions cons
         }
     }
     first.push_back(atlas.charts.size());
+    FILAMENT_ASSERT(options.scales.empty() || options.scales.size() == atlas.charts.size(), "one scale for each chart");
+    for (size_t i = 0; i < options.scales.size(); ++i) atlas.charts[i].scale = options.scales[i];
     const std::optional<Packing> packing = pack(atlas.charts, options);
     if (!packing) {
         const double density = 0.8 * double(options.maxSide) / std::sqrt(std::max(area, 1e-12));

@@ -38,9 +38,10 @@ struct AtlasChart {
     uint32_t surface = 0;
     uint2 place{ 0 }, size{ 0 }; ///< texels, with the padding
     Chart chart;                 ///< corners in metres
+    double scale = 1;            ///< of its density: times Atlas::texelsPerMeter
     /// In texels of the image.
     double2 corner(size_t i, double texelsPerMeter) const {
-        return double2(place) + double(kPadding) + chart.corners[i] * texelsPerMeter;
+        return double2(place) + double(kPadding) + chart.corners[i] * (texelsPerMeter * scale);
     }
 };
 
@@ -55,6 +56,7 @@ struct AtlasOptions {
     double texelsPerMeter = 16;
     uint32_t maxSide = 4096;
     ChartOptions charts{};
+    std::vector<double> scales{}; ///< AtlasChart::scale of each chart (Densities.h); empty: 1
 };
 
 Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions const& options, jobs::JobSystem& jobs);

@@ -6,6 +6,7 @@
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/GltfUri.h"
 #include "toolkit/machine/Machine.h"
+#include "tools/bake/Densities.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -108,17 +109,20 @@ Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs) {
     Result<BakeModel> model = readBakeModel(options.model, jobs);
     if (!model) return model.error();
     bake.model = std::move(*model);
-    Result<Atlas> atlas = makeAtlas(bake.model.surfaces, options.atlas, jobs);
-    if (!atlas) return atlas.error();
-    bake.atlas = std::move(*atlas);
-    bake.texels = findTexels(bake.atlas);
-    bake.heldOut = heldOutPoints(bake.model.surfaces, bake.atlas, options.heldOutPoints, options.light.seed);
     const Result<reference::ReferenceScene> scene = loadScene(options, jobs, bake.warnings);
     if (!scene) return scene.error();
-    bake.hash = hashOf(options, bake, *scene);
     Result<reference::TracedScenePtr> traced = reference::prepare(*scene, jobs);
     if (!traced) return traced.error();
     bake.scene = std::move(*traced);
+    std::vector<BakeSurface> const& surfaces = bake.model.surfaces;
+    Result<Atlas> atlas = options.texels > 0 ? makeBudgetAtlas(*bake.scene, surfaces, options.atlas, options.light,
+                                                               options.texels, jobs)
+                                             : makeAtlas(surfaces, options.atlas, jobs);
+    if (!atlas) return atlas.error();
+    bake.atlas = std::move(*atlas);
+    bake.texels = findTexels(bake.atlas);
+    bake.heldOut = heldOutPoints(surfaces, bake.atlas, options.heldOutPoints, options.light.seed);
+    bake.hash = hashOf(options, bake, *scene);
     addWarnings(bake.warnings, bake.model.warnings);
     addWarnings(bake.warnings, reference::warnings(*bake.scene));
     return bake;

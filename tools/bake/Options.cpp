@@ -11,8 +11,8 @@ using tools::invalidOption;
 using tools::wholeNumber;
 
 struct Words {
-    std::string iblIntensity = "30000", rotation = "0", density = "16", maxSize = "4096", samples = "1024", error,
-                maxBounces = "64", seed = "1", heldOut = "256", direct, shard, threads;
+    std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", samples = "1024",
+                error, maxBounces = "64", seed = "1", heldOut = "256", direct, shard, threads;
     std::vector<std::string> sun, exposure, merge;
 };
 
@@ -27,6 +27,9 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
                "APERTURE SHUTTER_SECONDS ISO for which glowing surfaces are authored (16 0.008 100)")
             .words(3);
     app.option("--density", words.density, "texels a metre (16)");
+    app.option("--texels", words.texels,
+               "N: a budget instead of a density: a coarse bake finds where the light changes, and surfaces get more "
+               "texels there (16 to 1e9)");
     app.option("--max-size", words.maxSize, "largest side of the lightmap in texels (4096)");
     app.option("--samples", words.samples, "paths a texel; with --error the maximum (1024)");
     app.option("--error", words.error, "stop at a texel when its relative standard error is below this");
@@ -97,6 +100,9 @@ Result<void> convertLight(Words const& words, Options& options) {
                            options.atlas.texelsPerMeter);
         !done)
         return done;
+    if (!words.texels.empty()) {
+        if (auto done = whole("--texels", words.texels, 16, 1'000'000'000, options.texels); !done) return done;
+    }
     if (auto done = whole("--max-size", words.maxSize, 16, 16384, options.atlas.maxSide); !done) return done;
     if (auto done = whole("--samples", words.samples, kLeastPasses, 1u << 20, options.light.samplesPerTexel); !done)
         return done;

@@ -23,6 +23,7 @@ struct Options {
     double rotationDegrees = 0; ///< of the environment around +Y
     std::optional<SunLight> sun;
     AtlasOptions atlas{};
+    uint32_t texels = 0; ///< a budget that Densities.h spends; 0: charts have the density of `atlas`
     LightSettings light{ .exposure = { .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 } };
     uint32_t heldOutPoints = 256;             ///< of surfaces, between texels, that judge the lightmap
     std::filesystem::path grid;               ///< of an irradiance grid (GridProgram.h); empty: bake a lightmap

@@ -101,6 +101,19 @@ TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
     EXPECT_THAT(large.text, HasSubstr("try --density"));
 }
 
+TEST_F(BakeProgram, SpendsABudgetOfTexelsAlikeOnAnyNumberOfThreads) {
+    const Outcome one = run("cornell.glb --texels 2000 --samples 32 --threads 1 --out one");
+    ASSERT_EQ(one.status, 0) << one.text;
+    const size_t count = one.text.find(" texels of");
+    ASSERT_NE(count, std::string::npos) << one.text;
+    const double texels = std::stod(one.text.substr(one.text.rfind(' ', count - 1)));
+    EXPECT_GT(texels, 1000);
+    EXPECT_LT(texels, 2100);
+    ASSERT_EQ(run("cornell.glb --texels 2000 --samples 32 --threads 3 --out three").status, 0);
+    EXPECT_EQ(read("one/baked.glb"), read("three/baked.glb"));
+    EXPECT_THAT(run("cornell.glb --texels 1").text, HasSubstr("from 16 to"));
+}
+
 TEST_F(BakeProgram, WritesAnIrradianceGridOfTheSameBytesForAnyNumberOfThreads) {
     std::ofstream(mFolder / "grid.json") << R"({"name": "box", "at": [0, 1, 0], "halfExtent": [0.9, 0.9, 0.9],
         "spacing": 1, "maxProbes": 30, "paths": 64, "depthSize": 8, "heldOut": 8, "leakPoints": 2})";
