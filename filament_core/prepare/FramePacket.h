@@ -198,10 +198,10 @@ struct Accumulation {
     float ramp = 0;           ///< of an image that accumulation enlarges: half the width of its filter's edges, pixels
 };
 
-/// How this frame's light in volumetric fog adds to the mean over frames (Fog::volumetricFrames).
+/// What of volumetric fog this frame lights anew, and what it has from the last one (Fog::volumetricFrames).
 struct FogAccumulation {
-    float3 place{ 0.5f }; ///< of this frame's sample in each cell, [0, 1)
-    float weight = 1;     ///< of this frame in the mean, (0, 1]; 1: there is none before
+    float3 place{ 0.5f }; ///< of this frame in a sequence of low discrepancy, [0, 1)
+    float weight = 1;     ///< share of the slices that it lights, (0, 1]; 1: all
     float exposure = 1;   ///< of this frame, by that of the last one
 };
 

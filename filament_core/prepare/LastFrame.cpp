@@ -123,7 +123,7 @@ bool LastFrame::hasFogOf(scene::SceneData const& scene, FrameSettings const& set
 }
 
 // Roberts 2018, as jitterPixels(), in three dimensions: multiples of the inverse powers of 1.2207, the root of
-// x^4 = x + 1. The first is the middle of the cell. Frames count equally until there are as many as asked for.
+// x^4 = x + 1. Until there were as many frames as asked for, each lights more.
 FogAccumulation LastFrame::fogAccumulation(scene::SceneData const& scene, ViewInput const& view,
                                            FrameSettings const& settings) const {
     constexpr uint32_t kPlaces = 1024;

@@ -39,7 +39,7 @@ public:
     float2 jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const;
     /// The mean of all frames since something changed.
     Accumulation accumulation(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
-    /// Of the light in volumetric fog: the mean of the last Fog::volumetricFrames or so.
+    /// Of the light in volumetric fog.
     FogAccumulation fogAccumulation(scene::SceneData const& scene, ViewInput const& view,
                                     FrameSettings const& settings) const;
 

@@ -68,7 +68,7 @@ Rows fogRows() {
              option("fog.volumetricPixels", &E::volumetricPixels, { 8, 64, "pixels" }, "Width of a column of cells."),
              option("fog.volumetricSlices", &E::volumetricSlices, { 8, 128 }, "Cells of a column."),
              option("fog.volumetricFrames", &E::volumetricFrames, { 1, 64, "frames" },
-                    "Over which the light of a cell is averaged."),
+                    "In which all cells are lit, a part in each."),
              option("fog.attenuatesLight", &E::attenuatesLight, "Weakens light on its way to volumetric fog."),
              option("fog.noiseAmplitude", &E::noiseAmplitude, { 0, 1 },
                     "Share by which the density of volumetric fog varies."),

@@ -13,7 +13,7 @@ layout(set = 2, binding = 0, std430) writeonly buffer WrittenFogCells {
 layout(set = 2, binding = 1, std140) uniform FogHistoryUniforms {
     mat4 lastClipFromWorld; // from this frame's world
     vec4 lastAlongView;
-    vec4 place; // xyz: of this frame's sample in a cell, [0, 1); w: its weight
+    vec4 place; // z: of this frame in a sequence, [0, 1); w: share of the slices that it lights
     vec4 exposure; // x: of this frame, by that of the last one
 } fogHistory;
 
@@ -31,7 +31,6 @@ layout(set = 2, binding = 3, std430) writeonly buffer WrittenFogLight {
 #include "shaders/lib/profiles.glsl"
 #include "shaders/lib/fog.glsl"
 #include "shaders/lib/fog_noise.glsl"
-#include "shaders/lib/noise.glsl"
 #define HAS_SHADOW_MOMENTS
 #include "shaders/lib/moments.glsl"
 #include "shaders/material/surface/shadow_maps.glsl"
@@ -73,19 +72,17 @@ highp float shadowOf(ShadowReceiver receiver) {
     return shadowFilter() >= kShadowVsm ? shadowOfBlurred(receiver) : shadowOfTent(receiver, 1);
 }
 
-// The mean over a slice, of points that divide it evenly: the edges of shafts cross many slices, and lamps do not. One
-// point is enough for a mean over frames.
+// The mean over a slice, of points that divide it evenly: the edges of shafts cross many slices, and lamps do not.
 const int kSunSamples = 4;
 highp vec3 visibilityOfSun(highp vec3 begin, highp vec3 end) {
     highp vec3 visibility = vec3(1.0);
     if (variant_shadows != 0) {
-        int samples = (quality_fog & kFogLightOfFrames) != 0 ? 1 : kSunSamples;
         visibility = vec3(0.0);
-        for (int i = 0; i < samples; ++i) {
-            litPoint = mix(begin, end, (float(i) + 0.5) / float(samples));
+        for (int i = 0; i < kSunSamples; ++i) {
+            litPoint = mix(begin, end, (float(i) + 0.5) / float(kSunSamples));
             visibility += sunVisibility();
         }
-        visibility /= float(samples);
+        visibility /= float(kSunSamples);
     }
     return visibility;
 }
@@ -249,20 +246,17 @@ highp vec4 lastLightAt(highp vec3 point) {
     return isSeen ? sum : vec4(0.0);
 }
 
-// The mean over frames: of a point of the cell that moves from frame to frame, and of what the last frame knew.
-highp vec3 lightOverFrames(FogColumn middle, highp vec2 cell, int slice) {
-    // Neighbours differ along the ray: what one frame has too much, surfaces see together with what it has too little.
-    highp float begin = float(slice), inside = fract(fogHistory.place.z + interleavedGradientNoise(cell));
-    FogColumn column = fogColumnAt(cell + fogHistory.place.xy);
-    highp float meters = fogMetersAt(column, begin + inside);
-    highp vec3 light = lightOfCell(column, meters, meters);
-    if (fogHistory.place.w < 1.0) {
-        highp vec4 last = lastLightAt(middle.origin + middle.ray.direction * fogMetersAt(middle, begin + 0.5));
-        highp float share = last.w > 0.5 ? fogHistory.place.w : 1.0;
-        light = mix(last.rgb * fogHistory.exposure.x, light, share);
-    }
+// Each frame lights a part of the slices anew, by a sequence that comes back to each about as often; the others have the light
+// that the last frame knew of the same place, and are lit where it knew none. All columns agree on the slices, because
+// drivers for CPUs shade several in step. Halves are rounded down: without the half of their last bit, light would fade.
+highp vec3 lightOverFrames(FogColumn column, highp vec2 cell, int slice, highp float begin, highp float end) {
+    bool isDue = fract(fogHistory.place.z + 0.61803399 * float(slice)) < fogHistory.place.w;
+    highp vec4 last = vec4(0.0);
+    if (!isDue) last = lastLightAt(column.origin + column.ray.direction * fogMetersAt(column, float(slice) + 0.5));
+    highp vec3 light = last.rgb * fogHistory.exposure.x;
+    if (last.w < 0.5) light = lightOfCell(column, begin, end);
     writtenFogLight.cells[int((cell.y * frameUniforms.fogGrid.x + cell.x) * frameUniforms.fogGrid.z) + slice] =
-            asHalves(vec4(light, 1.0));
+            asHalves(vec4(light * 1.000244, 1.0));
     return light;
 }
 
@@ -294,7 +288,7 @@ void main() {
             }
             highp vec3 light = vec3(0.0);
             if ((quality_fog & kFogLightOfFrames) != 0) {
-                light = lightOverFrames(column, cell, i);
+                light = lightOverFrames(column, cell, i, begin, end);
             } else if (opacity > sum.w) {
                 light = lightOfCell(column, begin, end);
             }

@@ -351,7 +351,7 @@ enum FogTerms : uint8_t {
 enum FogLightTerms : uint8_t {
     kFogLightVaries = 1,       ///< the density, by FrameUniforms::fogNoise
     kFogLightIsWeakened = 2,   ///< on its way
-    kFogLightOfFrames = 4,     ///< the mean over frames
+    kFogLightOfFrames = 4,     ///< kept from frame to frame
 };
 
 /// What shaders compute of reflection probes: how many they look at, and whether the environment lights what no probe

@@ -180,7 +180,7 @@ std::unique_ptr<StreamEdit> makeFinish() {
     return std::make_unique<SwitchEdit>("finish", Constant);
 }
 
-/// Each frame counts half as much in the light of fog that is accumulated over frames.
+/// Each frame lights half as many slices of fog.
 class FogWeightEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
         constexpr size_t kBlock = 28 * sizeof(float); // a matrix, along the view, place and weight, exposure
@@ -283,7 +283,7 @@ constexpr Mutation kEffectMutations[] = {
     { "fieldShift", "irradiance fields a quarter of each box beside their places", make<FieldShiftEdit> },
     { "probeShift", "a reflection probe 2 cm beside its place", make<ProbeShiftEdit> },
     { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
-    { "fogWeight", "frames count half as much in the mean of light in fog", make<FogWeightEdit> },
+    { "fogWeight", "frames light half as many slices of fog", make<FogWeightEdit> },
     { "fogNoise", "the swirls of varying fog a twentieth of their size beside their places", make<FogNoiseEdit> },
 };
 

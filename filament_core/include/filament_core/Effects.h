@@ -86,7 +86,7 @@ struct Fog {
     float volumetricMeters = 64; ///< where the cells end; beyond, the sun has no shadows and lamps no light; [0.1, 1e5]
     uint8_t volumetricPixels = 16; ///< width of a column, [8, 64]; wider ones where cells would take over 128 MiB
     uint8_t volumetricSlices = 32; ///< the nearest are the thinnest, [8, 128]
-    uint8_t volumetricFrames = 1;  ///< over which the light of a cell is averaged, [1, 64]; 1: each frame has its own
+    uint8_t volumetricFrames = 1;  ///< in which all cells are lit, a part in each, [1, 64]; 1: all in each
     bool attenuatesLight = false;  ///< volumetric fog weakens light on its way from lamps and the sun to the fog
     /// The density of volumetric fog varies from place to place: by noise of mean 0, up to this share of it, [0, 1].
     float noiseAmplitude = 0;
