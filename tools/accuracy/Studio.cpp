@@ -34,7 +34,11 @@ Result<void> Take::checkDevice() {
 }
 
 Result<Picture> Take::shoot() {
-    for (uint32_t i = 1; i < mParts.frames; ++i) mRenderer.render(mParts.shown.scene, mParts.view, mParts.target);
+    for (uint32_t i = mParts.frames; i-- > 1;) {
+        View before = mParts.view;
+        before.camera.worldFromView[3] -= double4(mParts.cameraMoves * static_cast<double>(i), 0);
+        mRenderer.render(mParts.shown.scene, before, mParts.target);
+    }
     mRenderer.render(mParts.shown.scene, mParts.view, mParts.target);
     const Result<Image> image = mRenderer.waitPixels(mRenderer.readPixels(mParts.target));
     if (!image) return image.error();
@@ -112,6 +116,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& named, Settings cons
     view.display = settings.view.display;
     view.camera = cameraOf(spec, parts.shown.scene.bounds());
     parts.frames = spec.frames;
+    parts.cameraMoves = spec.cameraMoves;
     parts.target = engine.own(engine.create(SwapChainDesc{
             .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" }));
     return std::make_unique<Take>(engine, (*used)->renderer, std::move(parts));

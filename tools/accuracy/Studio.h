@@ -32,7 +32,8 @@ struct TakeParts {
     ShownScene shown;
     View view{};
     Owned<SwapChain> target{};
-    uint32_t frames = 1; ///< drawn for a picture: its effects may need those before
+    uint32_t frames = 1;        ///< drawn for a picture: its effects may need those before
+    double3 cameraMoves{ 0.0 }; ///< metres a frame; the last one is seen from `view`
 };
 
 class Take {
