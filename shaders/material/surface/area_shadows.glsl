@@ -8,7 +8,8 @@
 
 const int kOccluderLines = 16;
 const int kAreaLines = 32;
-const highp float kAreaSlack = 1.2; // of its size: texels are not points
+const highp float kHalfTexel = 0.75; // and a little more than half of a diagonal: texels are not points
+const highp float kLeastRise = 0.002; // of an occluder above the surface, over its distance: rounding of normals
 const highp float kSameFraction = 0.02;
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
 const highp vec2 kRobertsStep = vec2(0.754877666, 0.569840291);
@@ -16,10 +17,11 @@ const highp float kGoldenPart = 0.618033989;
 
 struct AreaShadow {
     highp vec3 point;  // that is shaded, a quarter of a texel off its surface; from the light's centre, as all
-    highp vec3 plane;  // its product with a direction: one over the depth at which that meets the surface, times `near`
+    highp vec3 normal; // of the surface, on the side of the light
     highp vec3 facing; // its product with a place: distance from the plane of the light, over that of the point
     highp vec3 halfX, halfY;
     highp vec3 acrossX, acrossY; // over their squared length: the products of a point of the shape are in [-1, 1]
+    highp vec2 inverse; // one over the lengths of the half edges
     highp float near;  // depths are this over the distance
     highp vec2 maps;   // PunctualLight::offset.yz
     int channel;
@@ -48,14 +50,18 @@ highp float occluderTowards(AreaShadow area, highp vec3 direction) {
         highp vec2 texel = clamp(floor(turned.xy / (turned.z * width) + 0.5 * size), vec2(0.0), vec2(size - 1.0));
         highp float stored = texelFetch(passShadowMaps, ivec2(tile.xy + texel), 0).x;
         highp vec3 ahead = fromCubeFace(vec3((texel + (0.5 - 0.5 * size)) * width, 1.0), face);
-        highp float surface = max(dot(area.plane, ahead), 0.0);
-        if (stored > surface + surface * shadowUniforms.maps[map].texel.w) {
-            highp vec3 occluder = ahead * (area.near / stored);
+        if (stored > 0.0) {
+            highp float depth = area.near / stored;
+            highp vec3 occluder = ahead * depth;
+            highp vec3 away = occluder - area.point;
+            highp float rise = dot(area.normal, away);
             highp float part = dot(area.facing, occluder);
             highp vec3 hidden = hiddenPoint(area.point, occluder, part);
-            highp vec2 at = vec2(dot(hidden, area.acrossX), dot(hidden, area.acrossY));
-            highp float outside = area.isDisc ? dot(at, at) : max(at.x * at.x, at.y * at.y);
-            if (part > 0.0 && part < 1.0 && outside <= kAreaSlack * kAreaSlack) fraction = part;
+            highp float blur = kHalfTexel * width * depth / (1.0 - part); // of the texel on the light, metres
+            highp vec2 at = abs(vec2(dot(hidden, area.acrossX), dot(hidden, area.acrossY))) / (area.inverse * blur + 1.0);
+            highp float outside = area.isDisc ? sqrt(dot(at, at)) : max(at.x, at.y);
+            bool isAbove = rise > 0.0 && rise * rise > kLeastRise * kLeastRise * dot(away, away);
+            if (isAbove && part > 0.0 && part < 1.0 && outside <= 1.0) fraction = part;
         }
     }
     return fraction;
@@ -64,7 +70,7 @@ highp float occluderTowards(AreaShadow area, highp vec3 direction) {
 // The part of the light of the shape that arrives, [0, 1]: of a surface that faces the light as the triangle does.
 // One loop for both kinds of lines, the first of which find the mean of what hides the shape: the code of a line is long,
 // and is there once.
-highp float visibilityOfShape(AreaShadow area, highp vec3 normal) {
+highp float visibilityOfShape(AreaShadow area) {
     highp float noise = interleavedGradientNoise(floor(gl_FragCoord.xy));
     highp vec2 at = fract(noise * vec2(1.0, 7.31));
     highp float square = max(dot(area.point, area.point), 1e-30);
@@ -91,7 +97,7 @@ highp float visibilityOfShape(AreaShadow area, highp vec3 normal) {
             } else {
                 highp vec3 away = onArea - area.point;
                 highp float nearness = square / max(dot(away, away), 1e-6 * square);
-                highp float weight = max(dot(normal, away), 0.0) * (nearness * nearness);
+                highp float weight = max(dot(area.normal, away), 0.0) * (nearness * nearness);
                 all += weight;
                 seen += met > 0.0 ? 0.0 : weight;
             }
@@ -112,23 +118,24 @@ highp vec3 areaVisibility(AreaLight light, highp vec2 maps) {
         highp vec3 normal = dot(shading_facet, light.center) < 0.0 ? -shading_facet : shading_facet;
         highp vec3 size = abs(light.center);
         highp float texel = shadowUniforms.maps[first].texel.y * max3(size);
-        highp float least = kLeastCosine * sqrt(dot(light.center, light.center));
         highp vec3 across = cross(light.halfX, light.halfY);
 
         AreaShadow area;
         area.point = normal * (kNormalBias * texel) - light.center;
         area.near = shadowUniforms.maps[first].atlasFromWorld[3].z;
-        area.plane = normal * (area.near / min(dot(normal, area.point), -least));
+        area.normal = normal;
         highp float distance = dot(across, area.point);
         area.facing = across / (abs(distance) > 1e-30 ? distance : 1e-30);
         area.halfX = light.halfX;
         area.halfY = light.halfY;
-        area.acrossX = light.halfX / max(dot(light.halfX, light.halfX), 1e-30);
-        area.acrossY = light.halfY / max(dot(light.halfY, light.halfY), 1e-30);
+        highp vec2 squares = vec2(dot(light.halfX, light.halfX), dot(light.halfY, light.halfY));
+        area.inverse = 1.0 / sqrt(max(squares, vec2(1e-30)));
+        area.acrossX = light.halfX * (area.inverse.x * area.inverse.x);
+        area.acrossY = light.halfY * (area.inverse.y * area.inverse.y);
         area.isDisc = light.isDisc;
         area.maps = maps;
         for (area.channel = 0; area.channel < channels; ++area.channel) {
-            highp float share = visibilityOfShape(area, normal);
+            highp float share = visibilityOfShape(area);
             if (area.channel == 0) visibility = vec3(share);
             if (area.channel == 1) visibility.g = share;
             if (area.channel == 2) visibility.b = share;
