@@ -4,9 +4,11 @@
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ExrWriter.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/image/PictureDecoder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace filament_core {
@@ -44,6 +46,57 @@ TextureDesc textureOf(Image const& image, std::string_view name) {
              .generateMips = true,
              .pixels = image.pixels,
              .name = std::string(name) };
+}
+
+namespace {
+
+std::string nameOf(ExrLayer const& layer, std::string_view channel) {
+    return layer.name.empty() ? std::string(channel) : layer.name + '.' + std::string(channel);
+}
+
+/// Adds the channels of a layer to those of the layers before it.
+Result<void> addLayer(ExrLayer const& layer, Image const& first, std::vector<assets::ExrSource>& channels) {
+    FILAMENT_ASSERT(layer.image, "a layer of an EXR has an image");
+    Image const& image = *layer.image;
+    const bool isHalf = image.format == Format::RGBA16F;
+    if (!isHalf && image.format != Format::RGBA32F)
+        return fail(ErrorCode::InvalidArgument, "layer '{}' of an EXR is not RGBA16F or RGBA32F", layer.name);
+    if (image.width != first.width || image.height != first.height)
+        return fail(ErrorCode::InvalidArgument, "layer '{}' of an EXR has {} x {} pixels, the first one {} x {}",
+                    layer.name, image.width, image.height, first.width, first.height);
+    if (layer.channels.size() > 4)
+        return fail(ErrorCode::InvalidArgument, "layer '{}' of an EXR has {} channels of an image that has four",
+                    layer.name, layer.channels.size());
+    const size_t sampleBytes = isHalf ? 2 : 4;
+    const std::byte* samples = image.pixels.data();
+    for (const std::string_view channel : layer.channels) {
+        const std::string name = nameOf(layer, channel);
+        if (name.empty() || name.size() > assets::kMaxExrName)
+            return fail(ErrorCode::InvalidArgument, "channel '{}' of an EXR does not have 1 to {} letters", name,
+                        assets::kMaxExrName);
+        if (std::ranges::find(channels, name, &assets::ExrSource::name) != channels.end())
+            return fail(ErrorCode::InvalidArgument, "an EXR has channel '{}' once only", name);
+        channels.push_back({ name, isHalf ? assets::ExrType::Half : assets::ExrType::Float, samples, 4 * sampleBytes });
+        samples += sampleBytes;
+    }
+    return {};
+}
+
+Result<void> saveLayers(std::filesystem::path const& path, std::span<const ExrLayer> layers) {
+    std::vector<assets::ExrSource> channels;
+    for (ExrLayer const& layer : layers) {
+        if (Result<void> added = addLayer(layer, *layers.front().image, channels); !added) return added;
+    }
+    if (channels.empty()) return fail(ErrorCode::InvalidArgument, "'{}' has no channel to save", path.native());
+    Image const& first = *layers.front().image;
+    FILAMENT_ASSERT(first.width > 0 && first.height > 0, "an EXR has at least one pixel");
+    return assets::writeExr(path, first.width, first.height, channels);
+}
+
+} // namespace
+
+Result<void> saveExr(std::filesystem::path const& path, std::span<const ExrLayer> layers) {
+    return orOutOfMemory("image", path.native(), [&] { return saveLayers(path, layers); });
 }
 
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space) {

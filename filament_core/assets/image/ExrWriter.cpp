@@ -53,11 +53,15 @@ private:
     std::vector<std::byte> mBytes;
 };
 
-std::vector<std::byte> channelList(std::string_view sorted, ExrType type) {
+using Channels = std::vector<ExrSource>; // as files require: sorted by name
+
+size_t bytesOf(ExrType type) { return type == ExrType::Half ? 2 : 4; }
+
+std::vector<std::byte> channelList(Channels const& channels) {
     ExrOutput list;
-    for (const char name : sorted) {
-        list.addText({ &name, 1 });
-        list.addValue(type);
+    for (ExrSource const& channel : channels) {
+        list.addText(channel.name);
+        list.addValue(channel.type);
         list.addValue(uint32_t{ 0 });      // not perceptual, and three bytes of nothing
         list.addValue(std::array{ 1, 1 }); // every column and row has a sample
     }
@@ -65,13 +69,13 @@ std::vector<std::byte> channelList(std::string_view sorted, ExrType type) {
     return list.take();
 }
 
-void addHeader(ExrOutput& file, ExrPixels const& pixels, std::string_view sorted) {
+void addHeader(ExrOutput& file, uint32_t width, uint32_t height, Channels const& channels) {
     constexpr std::array kZip{ ExrCompression::Zip };
     constexpr std::array<uint8_t, 1> kIncreasingY{ 0 };
-    const std::array window{ 0, 0, static_cast<int32_t>(pixels.width - 1), static_cast<int32_t>(pixels.height - 1) };
+    const std::array window{ 0, 0, static_cast<int32_t>(width - 1), static_cast<int32_t>(height - 1) };
     file.addValue(std::array<uint8_t, 4>{ 0x76, 0x2F, 0x31, 0x01 });
     file.addValue(uint32_t{ 2 }); // version 2: one part of scan lines, names of up to 31 letters
-    file.addAttribute("channels", "chlist", channelList(sorted, pixels.type));
+    file.addAttribute("channels", "chlist", channelList(channels));
     file.addAttribute("compression", "compression", kZip);
     file.addAttribute("dataWindow", "box2i", window);
     file.addAttribute("displayWindow", "box2i", window);
@@ -83,17 +87,20 @@ void addHeader(ExrOutput& file, ExrPixels const& pixels, std::string_view sorted
     file.addValue('\0');
 }
 
+template <size_t Bytes>
+std::byte* gather(ExrSource const& channel, size_t firstPixel, uint32_t count, std::byte* to) {
+    const std::byte* from = channel.samples + firstPixel * channel.pitch;
+    for (uint32_t x = 0; x < count; ++x, from += channel.pitch, to += Bytes) std::memcpy(to, from, Bytes);
+    return to;
+}
+
 /// Rows as in files: all samples of the first channel, then all of the second, ...
-template <class Sample>
-void gatherRows(ExrPixels const& pixels, std::string_view sorted, size_t firstRow, std::span<std::byte> rows) {
-    const size_t pitch = pixels.channels.size() * sizeof(Sample);
+void gatherRows(Channels const& channels, uint32_t width, size_t firstRow, std::span<std::byte> rows) {
     std::byte* to = rows.data();
     for (size_t y = firstRow; to != rows.data() + rows.size(); ++y) {
-        for (const char name : sorted) {
-            const std::byte* from = pixels.samples.data() + y * pixels.width * pitch;
-            from += pixels.channels.find(name) * sizeof(Sample);
-            for (size_t x = 0; x < pixels.width; ++x, from += pitch, to += sizeof(Sample))
-                std::memcpy(to, from, sizeof(Sample));
+        for (ExrSource const& channel : channels) {
+            to = bytesOf(channel.type) == 2 ? gather<2>(channel, y * width, width, to)
+                                            : gather<4>(channel, y * width, width, to);
         }
     }
 }
@@ -119,33 +126,45 @@ void addBlock(ExrOutput& file, uint32_t firstRow, std::span<const std::byte> row
     file.add(smaller);
 }
 
+Channels sorted(std::span<const ExrSource> channels) {
+    Channels all(channels.begin(), channels.end());
+    std::ranges::sort(all, {}, &ExrSource::name);
+    return all;
+}
+
 } // namespace
 
-std::vector<std::byte> encodeExr(ExrPixels const& pixels) {
-    FILAMENT_ASSERT(pixels.width > 0 && pixels.height > 0 && pixels.width <= kMaxExrSide &&
-                            pixels.height <= kMaxExrSide,
+std::vector<std::byte> encodeExr(uint32_t width, uint32_t height, std::span<const ExrSource> sources) {
+    FILAMENT_ASSERT(width > 0 && height > 0 && width <= kMaxExrSide && height <= kMaxExrSide,
                     "encodeExr takes 1 to kMaxExrSide pixels per side");
-    const size_t sampleBytes = pixels.type == ExrType::Half ? 2 : 4;
-    const size_t rowBytes = pixels.width * pixels.channels.size() * sampleBytes;
-    FILAMENT_ASSERT(pixels.samples.size() == rowBytes * pixels.height, "encodeExr takes all samples of all pixels");
-    std::string sorted(pixels.channels); // as files require
-    std::ranges::sort(sorted);
+    const Channels channels = sorted(sources);
+    size_t pixelBytes = 0;
+    for (ExrSource const& channel : channels) pixelBytes += bytesOf(channel.type);
+    const size_t rowBytes = width * pixelBytes;
     ExrOutput file;
-    addHeader(file, pixels, sorted);
+    addHeader(file, width, height, channels);
     size_t offset = file.size(); // of the next entry in the table of offsets
-    const uint32_t blocks = (pixels.height - 1) / kRowsOfZip + 1;
+    const uint32_t blocks = (height - 1) / kRowsOfZip + 1;
     file.add(std::vector<std::byte>(blocks * sizeof(uint64_t)));
     std::vector<std::byte> rows;
-    for (uint32_t y = 0; y < pixels.height; y += kRowsOfZip, offset += sizeof(uint64_t)) {
-        rows.resize(rowBytes * std::min(kRowsOfZip, pixels.height - y));
-        if (sampleBytes == 2)
-            gatherRows<uint16_t>(pixels, sorted, y, rows);
-        else
-            gatherRows<uint32_t>(pixels, sorted, y, rows);
+    for (uint32_t y = 0; y < height; y += kRowsOfZip, offset += sizeof(uint64_t)) {
+        rows.resize(rowBytes * std::min(kRowsOfZip, height - y));
+        gatherRows(channels, width, y, rows);
         file.set(offset, file.size());
         addBlock(file, y, rows);
     }
     return file.take();
+}
+
+std::vector<std::byte> encodeExr(ExrPixels const& pixels) {
+    const size_t sampleBytes = bytesOf(pixels.type), pitch = pixels.channels.size() * sampleBytes;
+    FILAMENT_ASSERT(pixels.samples.size() == pitch * pixels.width * pixels.height,
+                    "encodeExr takes all samples of all pixels");
+    Channels channels;
+    for (size_t i = 0; i < pixels.channels.size(); ++i)
+        channels.push_back(
+                { std::string(1, pixels.channels[i]), pixels.type, pixels.samples.data() + i * sampleBytes, pitch });
+    return encodeExr(pixels.width, pixels.height, channels);
 }
 
 } // namespace filament_core::assets

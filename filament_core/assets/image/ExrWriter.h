@@ -12,7 +12,9 @@
 
 #include "filament_core/assets/image/ExrBlock.h"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace filament_core::assets {
 
@@ -27,5 +29,17 @@ struct ExrPixels {
 };
 
 std::vector<std::byte> encodeExr(ExrPixels const& pixels);
+
+constexpr size_t kMaxExrName = 31; ///< letters of a channel's name
+
+/// One channel of an image of several layers: "normal.X".
+struct ExrSource {
+    std::string name; ///< 1 to kMaxExrName letters, unlike all others
+    ExrType type = ExrType::Half;
+    const std::byte* samples = nullptr; ///< the first; row 0 is the top row
+    size_t pitch = 0;                   ///< bytes from a pixel to the next one, also at the end of a row
+};
+
+std::vector<std::byte> encodeExr(uint32_t width, uint32_t height, std::span<const ExrSource> channels);
 
 } // namespace filament_core::assets

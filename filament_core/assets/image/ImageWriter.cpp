@@ -33,12 +33,14 @@ Error pngFailure(std::filesystem::path const& path, const char* verb, PngImage c
                 static_cast<const char*>(png.value.message));
 }
 
+Result<void> checkExrSize(std::filesystem::path const& path, uint32_t width, uint32_t height) {
+    if (std::max(width, height) <= kMaxExrSide) return {};
+    return fail(ErrorCode::Unreadable, "cannot encode '{}': {} x {} pixels are more than {} per side; make it smaller",
+                path.string(), width, height, kMaxExrSide);
+}
+
 Result<void> saveEncodedExr(std::filesystem::path const& path, ExrPixels const& pixels) {
-    if (std::max(pixels.width, pixels.height) > kMaxExrSide) {
-        return fail(ErrorCode::Unreadable,
-                    "cannot encode '{}': {} x {} pixels are more than {} per side; make it smaller", path.string(),
-                    pixels.width, pixels.height, kMaxExrSide);
-    }
+    if (Result<void> checked = checkExrSize(path, pixels.width, pixels.height); !checked) return checked;
     return replaceFile(path, encodeExr(pixels));
 }
 
@@ -165,6 +167,12 @@ Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_
     FILAMENT_ASSERT(width > 0 && height > 0 && rgba16f.size() == size_t(width) * height * 8,
                     "writeExr takes width * height * 8 bytes, more than none");
     return saveEncodedExr(path, { width, height, "RGBA", ExrType::Half, rgba16f });
+}
+
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const ExrSource> channels) {
+    if (Result<void> checked = checkExrSize(path, width, height); !checked) return checked;
+    return replaceFile(path, encodeExr(width, height, channels));
 }
 
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image) {

@@ -21,6 +21,8 @@
 
 namespace filament_core::assets {
 
+struct ExrSource;
+
 /// RGBA8, 4 bytes per pixel. The file says that they are codes of `space`.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba8, OutputSpace space = OutputSpace::Srgb);
@@ -41,6 +43,10 @@ Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_
 /// RGBA16F pixels (8 bytes each) bit for bit, with alpha.
 Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba16f);
+
+/// Of several layers, bit for bit. `channels`: as encodeExr() takes them (ExrWriter.h).
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const ExrSource> channels);
 
 /// RGBE with run lengths: 8 bits of mantissa shared by three components, 1e-38 to 1e38. Negative components become 0.
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,5 +58,17 @@ TextureDesc textureOf(Image const& image, std::string_view name = {});
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space = OutputSpace::Srgb);
 /// RGBA16F only, stored as half floats; linear Rec. 709, which the file says.
 Result<void> saveExr(std::filesystem::path const& path, Image const& image);
+
+/// Channels of an image in an OpenEXR file of several layers: "name.X", "name.Y", or "X", "Y" without a name.
+struct ExrLayer {
+    std::string name{};
+    Image const* image = nullptr;                 ///< RGBA16F or RGBA32F
+    std::span<const std::string_view> channels{}; ///< names of red and those after it, at most four
+};
+
+/// One part of scan lines, compressed without loss; samples keep their bits. Errors: InvalidArgument (images of
+/// different sizes or of other formats; no channel; names of more than 31 letters, or there twice), Unreadable with path
+/// and reason.
+Result<void> saveExr(std::filesystem::path const& path, std::span<const ExrLayer> layers);
 
 } // namespace filament_core
