@@ -19,6 +19,7 @@
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/SplatPass.h"
+#include "filament_core/prepare/DebugViews.h"
 #include "filament_core/prepare/GuardBand.h"
 #include "filament_core/prepare/PlaceGrids.h"
 #include "filament_core/prepare/PrepareFrame.h"
@@ -108,6 +109,20 @@ void checkPlace(View const& view, uint2 target) {
                     "a viewport lies in its target: offset + View::size is at most the target's size");
     const float4 clear = view.viewport->clearColor;
     FILAMENT_ASSERT(std::isfinite(clear.x + clear.y + clear.z + clear.w), "a viewport's clearColor is finite");
+}
+
+/// Numbers are drawn by the debug view that shows them.
+View withDebugViewOf(View const& view) {
+    View shown = view;
+    shown.debugView = prepare::debugViewOf(view.aov);
+    return shown;
+}
+
+void checkNumbers(View const& view, Format target) {
+    FILAMENT_ASSERT((view.aov != Aov::None) == (target == Format::RGBA32F),
+                    "View::aov is drawn to a render target of RGBA32F, and nothing else is");
+    FILAMENT_ASSERT(view.aov == Aov::None || view.debugView == DebugView::None,
+                    "a view has either an aov or a debugView");
 }
 
 bool joinsLastImage(View const& view) { return view.viewport && view.viewport->contents == TargetContents::Keep; }
@@ -328,12 +343,14 @@ struct Renderer::Impl final : engine::Dependent {
     /// serves the next frame.
     Result<void> render(Scene const& scene, View const& view, Target const& target) {
         backend::DeviceTextureDesc const& desc = target.color.desc;
+        checkNumbers(view, desc.format);
         if (!target.color.handle) return engine::noImage(desc.width, desc.height);
         try {
             // Outside of the frame: callbacks of finished compilations may compile and destroy materials.
             engine.compilations.collect(engine.stream->replayedSubmissions());
             if (engine.streamer) engine.streamer->beginFrame();
-            if (Result<void> drawn = drawFrame(scene, view, target); !drawn) return drawn;
+            Result<void> drawn = drawFrame(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target);
+            if (!drawn) return drawn;
             // Only once the frame is recorded: what failed has drawn nothing.
             target.color.hasContents = true;
             if (target.depth) target.depth->hasContents = true;
@@ -365,10 +382,11 @@ struct Renderer::Impl final : engine::Dependent {
 
     /// The passes of such a frame become slots of the pipeline cache; their own pipelines are requested.
     void prewarm(Scene const& scene, View const& view, Target const& target) {
+        checkNumbers(view, target.color.desc.format);
         try {
             const jobs::AdoptedThread seat(engine.jobs);
             std::vector<passes::FullScreenRequest> requests;
-            rehearse(scene, view, target, requests);
+            rehearse(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target, requests);
             engine.dispatches.makeExpected(engine.pending);
             if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
             for (passes::FullScreenRequest const& request : requests) {

@@ -254,8 +254,10 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
     FILAMENT_ASSERT(desc.color, "a render target has a colour");
     DeviceTextureDesc const& color = textures.get(desc.color).desc;
     const bool isShown = attachmentFormat(color.format) == Format::RGBA8 || color.format == Format::RGB10A2;
-    FILAMENT_ASSERT(isPicture(color) && (isShown || color.format == Format::RGBA16F),
-                    "the colour of a render target is a renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
+    const bool isFloat = color.format == Format::RGBA16F || color.format == Format::RGBA32F;
+    FILAMENT_ASSERT(isPicture(color) && (isShown || isFloat),
+                    "the colour of a render target is a renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or "
+                    "RGBA32F");
     FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
                     "the colour of a render target that generates mips has several levels");
     if (!desc.depth) return;

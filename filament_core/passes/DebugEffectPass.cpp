@@ -34,6 +34,8 @@ constexpr std::string_view kDebugNumericsInputs[] = { "color", "shown" };
 constexpr FullScreenInterface kDebugNumerics{ .pass = "debug view", .inputs = kDebugNumericsInputs };
 constexpr std::string_view kDebugMaterialInputs[] = { "value" };
 constexpr FullScreenInterface kDebugMaterial{ .pass = "debug view", .inputs = kDebugMaterialInputs };
+constexpr std::string_view kDebugDepthInputs[] = { "depth" };
+constexpr FullScreenInterface kDebugDepth{ .pass = "debug view", .inputs = kDebugDepthInputs };
 constexpr std::string_view kDebugWireframeInputs[] = { "triangles", "color" };
 constexpr FullScreenInterface kDebugWireframe{ .pass = "debug view", .inputs = kDebugWireframeInputs };
 
@@ -125,15 +127,30 @@ void addNumericsView(FrameGraph& graph, FrameContext const& context, FrameTarget
                         .target = targets.output });
 }
 
+/// Of the views that can give their numbers.
+std::array<EffectConstant, 3> constantsOf(FrameContext const& context, bool isEncoded) {
+    return { EffectConstant{ "view", static_cast<int32_t>(context.settings().debugView) },
+             EffectConstant{ "isEncoded", isEncoded }, EffectConstant{ "isNumber", context.settings().givesNumbers } };
+}
+
 void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
     const std::array inputs{ FullScreenInput{ .name = "value", .texture = targets.color } };
-    const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(context.settings().debugView) },
-                                EffectConstant{ "isEncoded", isEncoded } };
     addFullScreenPass(graph, context,
                       { .name = "debug view",
-                        .material = context.resources.effects->get("debug_material", constants, kDebugMaterial),
+                        .material = context.resources.effects->get("debug_material", constantsOf(context, isEncoded),
+                                                                   kDebugMaterial),
                         .inputs = inputs,
                         .target = targets.output });
+}
+
+void addDepthView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
+    addFullScreenPass(
+            graph, context,
+            { .name = "debug view",
+              .material = context.resources.effects->get("debug_depth", constantsOf(context, isEncoded), kDebugDepth),
+              .inputs = inputs,
+              .target = targets.output });
 }
 
 void addWireframeView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
@@ -164,6 +181,9 @@ void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTar
         return addLuminanceView(graph, context, targets, isEncoded);
     case DebugView::Numerics:
         return addNumericsView(graph, context, targets, isEncoded);
+    case DebugView::Depth:
+    case DebugView::Positions:
+        return addDepthView(graph, context, targets, isEncoded);
     case DebugView::Wireframe:
     case DebugView::WireframeAlone:
         return addWireframeView(graph, context, targets, isEncoded);

@@ -93,8 +93,8 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
     const uint2 size = context.settings().size;
     FrameTargets targets;
     beginViewportBlit(graph, context, output, targets);
-    const bool isFull =
-            context.settings().debugView == DebugView::Numerics; // what half floats do not hold is to be seen
+    // What half floats do not hold is to be seen, or given.
+    const bool isFull = context.settings().debugView == DebugView::Numerics || context.settings().givesNumbers;
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.changesColor();
     targets.color = isFinished ? targets.output
                                : graph.createTexture({ .width = size.x,

@@ -22,7 +22,7 @@ struct FrameOutput {
     bool hasDepths = false;         ///< `depth` was drawn to before
 
     /// Takes light as it is, without a tone mapper.
-    bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
+    bool isSceneLinear() const { return format == backend::Format::RGBA16F || format == backend::Format::RGBA32F; }
 };
 
 /// In the arena: passes keep a pointer to it. Results of uploads (FrameContext::views and the members after it) are set

@@ -15,6 +15,8 @@ using shader::PassKind;
 
 namespace {
 
+constexpr uint32_t kViewNumbers = 64; // shaders/material/debug_views.glsl
+
 shader::PassUniforms uniformsOf(FrameContext const& context, float2 size) {
     prepare::LastView const& last = context.packet.last;
     return { .target = { size, 1.0f / size },
@@ -58,8 +60,10 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
 
 PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
                              DebugView debugView) {
+    static_assert(kDebugViewCount <= kViewNumbers);
     shader::PassUniforms block = uniformsOf(context, texture, 0, 1);
-    block.raster.z = static_cast<float>(debugView);
+    block.raster.z =
+            static_cast<float>(static_cast<uint32_t>(debugView) + (context.settings().givesNumbers ? kViewNumbers : 0));
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

@@ -48,6 +48,9 @@ constexpr std::array kDebugViews{
     unlit(DebugView::WireframeAlone, Shows::Edges),
     unlit(DebugView::Plausibility, Shows::Material),
     lit(DebugView::Probes, Shows::Effect, Effect::ReflectionProbes),
+    unlit(DebugView::GeometricNormals, Shows::Material),
+    unlit(DebugView::Depth, Shows::Depth),
+    unlit(DebugView::Positions, Shows::Depth),
 };
 
 static_assert(kDebugViews.size() == kDebugViewCount &&
@@ -57,7 +60,25 @@ static_assert(kDebugViews.size() == kDebugViewCount &&
                                           }),
               "every debug view has a row, in the order of the enumerators");
 
+/// By Aov.
+constexpr std::array<DebugView, kAovCount> kViewsOfAovs{
+    DebugView::None,
+    DebugView::Depth,
+    DebugView::Positions,
+    DebugView::Normals,
+    DebugView::GeometricNormals,
+    DebugView::Tangents,
+    DebugView::TextureCoordinates,
+    DebugView::BaseColor,
+    DebugView::Roughness,
+    DebugView::Metallic,
+    DebugView::MaterialOcclusion,
+    DebugView::Emissive,
+};
+
 } // namespace
+
+DebugView debugViewOf(Aov aov) { return kViewsOfAovs[static_cast<size_t>(aov)]; }
 
 DebugViewRow const& rowOf(DebugView view) { return kDebugViews[static_cast<size_t>(view)]; }
 

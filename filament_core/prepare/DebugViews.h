@@ -14,6 +14,7 @@ enum class DebugContent : uint8_t {
     Effect,   ///< what an effect computes
     Numbers,  ///< of the lit image
     Material, ///< values that the code of materials gives
+    Depth,    ///< of opaque surfaces
     Count,    ///< of fragments
     Edges,    ///< of triangles
 };
@@ -29,11 +30,15 @@ struct DebugViewRow {
 
 DebugViewRow const& rowOf(DebugView view);
 
+/// Which view has the numbers of an Aov; None: that of None.
+DebugView debugViewOf(Aov aov);
+
 inline bool isOfEffectPass(DebugView view) { return rowOf(view).isOfEffectPass; }
 inline bool countsSurfaces(DebugView view) { return rowOf(view).content == DebugContent::Count; }
+inline bool showsDepths(DebugView view) { return rowOf(view).content == DebugContent::Depth; }
 /// Whether it draws materials' values, or how often their code runs, instead of light.
 inline bool showsMaterials(DebugView view) {
-    return rowOf(view).content == DebugContent::Material || countsSurfaces(view);
+    return rowOf(view).content == DebugContent::Material || showsDepths(view) || countsSurfaces(view);
 }
 inline bool showsEdges(DebugView view) { return rowOf(view).content == DebugContent::Edges; }
 inline bool showsLight(DebugView view) { return rowOf(view).isLit; }

@@ -96,6 +96,7 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
              .clearColor = view.clearColor,
              .viewport = view.viewport,
              .debugView = view.debugView,
+             .givesNumbers = view.aov != Aov::None,
              .visibleLayers = view.visibleLayers,
              .contents = contents };
 }
@@ -108,6 +109,7 @@ FrameSettings resolve(ViewInput const& main) {
                             .effects = drawnEffects(main.effects, main.debugView),
                             .display = main.display,
                             .debugView = main.debugView,
+                            .givesNumbers = main.givesNumbers,
                             .size = main.size,
                             .shownSize = main.shown(),
                             .band = main.band,

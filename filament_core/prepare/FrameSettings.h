@@ -15,6 +15,7 @@ struct FrameSettings {
     Effects effects{};         ///< within their ranges; those that light surfaces are off where nothing is lit
     DisplaySettings display{}; ///< of View::display
     DebugView debugView = DebugView::None;
+    bool givesNumbers = false;       ///< of debugView, in full floats, instead of its colours
     uint2 size{ 1, 1 };              ///< pixels that are drawn
     uint2 shownSize{ 1, 1 };         ///< of the image that is made of them
     uint32_t band = 0;               ///< of `size`, on each side, that the image does not show

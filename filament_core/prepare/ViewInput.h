@@ -61,6 +61,7 @@ struct ViewInput {
     float4 clearColor{ 0, 0, 0, 1 };
     std::optional<Viewport> viewport{};
     DebugView debugView = DebugView::None;
+    bool givesNumbers = false;         ///< of debugView, instead of its colours: View::aov
     Layers visibleLayers = kAllLayers; ///< of renderables
     uint64_t contents = 0;             ///< another number whenever the app changed the scene or a material
 

@@ -13,6 +13,11 @@ const int kViewMipLevel = 24;
 const int kViewOverdraw = 25;
 const int kViewTransparentLayers = 26;
 const int kViewPlausibility = 29;
+const int kViewGeometricNormals = 31;
+const int kViewPositions = 33;
+
+// Added to the view of surfaces whose numbers are wanted, in full floats, not their colours.
+const int kViewNumbers = 64;
 
 // Alpha of the output: for a value; for a material without such an input. Without a surface: 0.
 const float kHasValue = 1.0;

@@ -296,7 +296,8 @@ struct LightImageDescription {
 /// The target of a view. Materials may sample its textures in every render() except those that draw to it.
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
-    /// Renderable 2D RGBA8, RGBA8Srgb, RGB10A2, or RGBA16F (then scene-linear, without tone mapping). Of RGBA8Srgb the
+    /// Renderable 2D RGBA8, RGBA8Srgb, RGB10A2, RGBA16F (then scene-linear, without tone mapping), or RGBA32F (then for
+    /// views with View::aov only). Of RGBA8Srgb the
     /// texels are those of RGBA8, and samplers decode them. OpenGL ES needs EXT_sRGB_write_control for it: without, the
     /// texture is not created, and takeErrors() reports it.
     Texture color{};

@@ -2,6 +2,7 @@
 /// View: a camera and the settings of its image. A plain value; its options by name: setOption() (Options.h).
 #pragma once
 
+#include <filament_core/Aov.h>
 #include <filament_core/Camera.h>
 #include <filament_core/DisplayTransform.h>
 #include <filament_core/Effects.h>
@@ -59,10 +60,14 @@ enum class DebugView : uint8_t {
     Plausibility, ///< values that no real material has, by the rule that they break
     // Another decision of the engine:
     Probes, ///< the image in grey, tinted by the reflection probes that light each pixel
+    // The geometry of the visible surface:
+    GeometricNormals, ///< in world space, without normal maps
+    Depth,            ///< of opaque surfaces, along the view
+    Positions,        ///< of opaque surfaces in the world, repeated each metre
 };
 template <>
 struct EnumNames<DebugView> {
-    static constexpr std::array<std::string_view, 31> values{ "none",
+    static constexpr std::array<std::string_view, 34> values{ "none",
                                                               "cascades",
                                                               "atlas",
                                                               "froxels",
@@ -92,7 +97,10 @@ struct EnumNames<DebugView> {
                                                               "wireframe",
                                                               "wireframeAlone",
                                                               "plausibility",
-                                                              "probes" };
+                                                              "probes",
+                                                              "geometricNormals",
+                                                              "depth",
+                                                              "positions" };
 };
 inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 
@@ -137,6 +145,7 @@ struct View {
     bool occlusionCulling = true;
     LevelsOfDetail lod{};
     DebugView debugView = DebugView::None;
+    Aov aov = Aov::None; ///< numbers of the surfaces instead of light, in a render target of RGBA32F; debugView is None
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filament_core/Animator.h>
+#include <filament_core/Aov.h>
 #include <filament_core/Backend.h>
 #include <filament_core/Box.h>
 #include <filament_core/BuiltInMaterials.h>
@@ -43,6 +44,7 @@
 #include <filament_core/QualityBudget.h>
 #include <filament_core/QualityCosts.h>
 #include <filament_core/ReflectionProbe.h>
+#include <filament_core/RenderAovs.h>
 #include <filament_core/RenderPreset.h>
 #include <filament_core/Renderer.h>
 #include <filament_core/ResolutionController.h>

@@ -15,11 +15,12 @@ float debugMipLevel() {
 
 vec4 debugDirection(vec3 direction) { return vec4(direction * 0.5 + 0.5, kHasValue); }
 
-// Red: u, green: v, of the repeated texture; blue outside of the first one.
-vec4 debugCoordinates() {
+// Red: u, green: v, of the repeated texture; blue outside of the first one. Numbers are not repeated: they are not kept in
+// half floats.
+vec4 debugCoordinates(bool isNumber) {
 #if defined(HAS_UV0)
     vec2 uv = vertex_uv01.xy;
-    bool isInside = uv.x >= 0.0 && uv.y >= 0.0 && uv.x <= 1.0 && uv.y <= 1.0;
+    bool isInside = isNumber || uv.x >= 0.0 && uv.y >= 0.0 && uv.x <= 1.0 && uv.y <= 1.0;
     return vec4(isInside ? uv : fract(uv), isInside ? 0.0 : 0.5, kHasValue);
 #else
     return vec4(vec3(0.0), kHasNone);
@@ -70,6 +71,7 @@ vec4 debugShading(MaterialInputs inputs, int view) {
 #endif
 #if defined(NEEDS_NORMAL)
     if (view == kViewNormals) shown = debugDirection(shading_normal);
+    if (view == kViewGeometricNormals) shown = debugDirection(shading_geometricNormal);
 #endif
 #if defined(NEEDS_TANGENT)
     if (view == kViewTangents) shown = debugDirection(normalizeOrZero(shading_tangentToWorld[0]));
@@ -88,12 +90,12 @@ vec4 debugLayer(MaterialInputs inputs) {
 #endif
 }
 
-vec4 debugValue(MaterialInputs inputs, float level, int view) {
+vec4 debugValue(MaterialInputs inputs, float level, int view, bool isNumber) {
     vec4 shown = debugShading(inputs, view);
     if (view == kViewBaseColor) shown = vec4(inputs.baseColor.rgb, kHasValue);
     if (view == kViewEmissive)
         shown = vec4(inputs.emissive.rgb * mix(1.0, getExposure(), inputs.emissive.a), kHasValue);
-    if (view == kViewTextureCoordinates) shown = debugCoordinates();
+    if (view == kViewTextureCoordinates) shown = debugCoordinates(isNumber);
 #if defined(HAS_UV0)
     if (view == kViewMipLevel) shown = vec4(vec3(level), kHasValue);
 #endif
@@ -117,5 +119,6 @@ void main() {
 #if defined(BLEND_MODE_MASKED)
     if (inputs.baseColor.a < getMaskThreshold()) discard;
 #endif
-    fragment_color = debugValue(inputs, level, int(ofFragment(passUniforms.raster.z)));
+    int view = int(ofFragment(passUniforms.raster.z));
+    fragment_color = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
 }
