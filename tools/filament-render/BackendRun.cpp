@@ -15,6 +15,7 @@
 #include <filament_core/Gltf.h>
 #include <filament_core/ModelCopy.h>
 #include <filament_core/Primitives.h>
+#include <filament_core/RenderAovs.h>
 #include <filament_core/Scene.h>
 #include <filament_core/Sky.h>
 #include <filament_core/TextureStreaming.h>
@@ -117,6 +118,7 @@ public:
     Result<void> load(BackendRun& run, std::filesystem::path const& model, std::filesystem::path const& environment);
     /// With --budget: measures frames with the requested settings, and continues with the settings that fit.
     Result<void> fitBudget(BackendRun& run);
+    Result<void> drawAovs(BackendRun& run);
     Result<void> measureCosts(BackendRun& run);
     void drawFirst(BackendRun& run);
     void drawOthers(BackendRun& run);
@@ -307,6 +309,17 @@ Result<void> Stage::fitBudget(BackendRun& run) {
     return {};
 }
 
+Result<void> Stage::drawAovs(BackendRun& run) {
+    if (mOptions.aovs.empty()) return {};
+    showProgress(fmt::format("{}: AOVs", fileStem(run.backend)));
+    View view = mView;
+    view.debugView = DebugView::None;
+    Result<std::vector<Image>> aovs = renderAovs(mEngine, mScene, view, mOptions.aovs);
+    if (!aovs) return aovs.error();
+    run.aovs = std::move(*aovs);
+    return {};
+}
+
 Result<void> Stage::measureCosts(BackendRun& run) {
     if (mOptions.measureCosts.empty()) return {};
     showProgress(fmt::format("{}: measuring quality choices", fileStem(run.backend)));
@@ -403,6 +416,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     Result<Image> image = stage.readPixels();
     if (!image) return image.error();
     run.image = std::move(*image);
+    if (Result<void> drawn = stage.drawAovs(run); !drawn) return drawn.error();
     run.timings = stage.renderer().takeTimings();
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();

@@ -38,6 +38,7 @@ struct BackendRun {
     Backend backend = Backend::Null;
     DeviceDescription device{};
     Image image{};
+    std::vector<Image> aovs{}; ///< by Options::aovs
     std::string modelName;
     bool usesModelEnvironment = false; ///< the model's own, instead of a file
     EnvironmentLights lights{};        ///< of the environment

@@ -19,7 +19,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook, saveFrame, skyAltitude;
+                saveLook, saveFrame, skyAltitude, aovs;
     std::vector<std::string> values, sky;
 };
 
@@ -138,6 +138,20 @@ Result<void> convertSky(Words const& words, Options& options) {
     return convertAltitude(words, options);
 }
 
+Result<void> convertAovs(Words const& words, Options& options) {
+    const auto all = enumNames<Aov>().subspan(1);
+    for (size_t begin = 0; begin < words.aovs.size();) {
+        const size_t end = std::min(words.aovs.find(',', begin), words.aovs.size());
+        const std::string word = words.aovs.substr(begin, end - begin);
+        const std::optional<Aov> aov = enumFromName<Aov>(word);
+        if (!aov || aov == Aov::None || std::ranges::find(options.aovs, *aov) != options.aovs.end())
+            return invalidOption("--aovs", word, fmt::format("{}, each once, separated by commas", listed(all)));
+        options.aovs.push_back(*aov);
+        begin = end + 1;
+    }
+    return {};
+}
+
 Result<void> convertTime(Words const& words, Options& options) {
     options.animation = words.animation;
     if (words.time.empty()) return {};
@@ -164,6 +178,9 @@ void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--format", words.format,
                "png; png16: ten bits a channel, stored in 16; or exr: scene-linear half floats before the tone mapper "
                "(png)");
+    app.option("--aovs", words.aovs,
+               fmt::format("NAMES, separated by commas: the layers of DIR/API.aovs.exr in full floats: {}",
+                           listed(enumNames<Aov>().subspan(1))));
     app.option("--save-look", words.saveLook,
                "FILE.cube: write grading, tone mapper and look as a cube for other programs");
     app.flag("--timing", options.timing, "print the time taken by start-up and frames");
@@ -211,8 +228,8 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.saveFrame = words.saveFrame;
     if (argc > 1) options.arguments.assign(argv + 1, argv + argc);
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert :
-         { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertTime, convertSky }) {
+    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertAovs,
+                          convertTime, convertSky }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

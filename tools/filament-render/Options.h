@@ -6,6 +6,7 @@
 #include "base/Result.h"
 #include "toolkit/program/SceneOptions.h"
 
+#include <filament_core/Aov.h>
 #include <filament_core/Engine.h>
 #include <filament_core/SkyDesc.h>
 
@@ -28,6 +29,7 @@ struct Options : SceneOptions {
     uint32_t copies = 1;                                     ///< of the model, on a grid
     uint32_t tolerance = 0;                                  ///< in 1/255
     PictureFormat format = PictureFormat::Png;
+    std::vector<Aov> aovs{};       ///< layers of DIR/API.aovs.exr, each once; empty: none
     std::optional<double> seconds; ///< time of the animation and of materials; none: rest pose, 0
     std::string animation;         ///< name or index; empty: the first, if there is a time
     bool timing = false, explain = false, trace = false;

@@ -10,6 +10,7 @@
 #include "toolkit/program/Console.h"
 #include "toolkit/program/Program.h"
 #include "toolkit/program/SceneFiles.h"
+#include "tools/filament-render/AovFiles.h"
 #include "tools/filament-render/BackendRun.h"
 #include "tools/filament-render/CheckAsset.h"
 #include "tools/filament-render/Options.h"
@@ -66,6 +67,8 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
         const Result<void> saved = options.format == PictureFormat::Exr
                                            ? saveExr(path, run->image)
                                            : savePng(path, run->image, options.view.display.outputSpace);
+        const Result<void> savedAovs = saveAovs(options, *run);
+        if (!savedAovs) note(savedAovs.error().message);
         if (!saved)
             note(saved.error().message);
         else
@@ -120,6 +123,7 @@ int render(Options const& options) {
     if (!runs.empty())
         std::fputs(explain(runs.front().lights, { .illuminance = options.iblIntensity }).c_str(), stdout);
     std::optional<ImageComparison> comparison;
+    bool hasSameAovs = true;
     if (runs.size() == 2) {
         const DeviceDescription devices[] = { runs[0].device, runs[1].device };
         if (const std::string note = driverNote(devices, cpuFeatures()); !note.empty()) printWarning(note);
@@ -128,6 +132,9 @@ int render(Options const& options) {
             comparison = *compared;
         else
             errors.push_back(compared.error().message);
+        const AovComparison aovs = compareAovs(options, runs[0], runs[1]);
+        if (!aovs.line.empty()) std::printf("%s\n", aovs.line.c_str());
+        hasSameAovs = aovs.same;
     }
     for (BackendRun const& run : runs) {
         if (options.explain) std::printf("%s\n%s\n", fileStem(run.backend), run.explanation.c_str());
@@ -143,7 +150,7 @@ int render(Options const& options) {
         errors.push_back(saved.error().message);
 
     if (!errors.empty()) return failed(fail(ErrorCode::Internal, "{}", fmt::join(errors, "; ")));
-    return comparison && !comparison->within(options.tolerance) ? 1 : 0;
+    return (comparison && !comparison->within(options.tolerance)) || !hasSameAovs ? 1 : 0;
 }
 
 int check(Options const& options) {
