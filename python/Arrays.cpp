@@ -155,6 +155,10 @@ py::array arrayOf(Image const& image) {
     }
     py::array_t<float> result(shape);
     float* out = result.mutable_data();
+    if (image.format == Format::RGBA32F) {
+        std::memcpy(out, image.pixels.data(), std::min(count * sizeof(float), image.pixels.size()));
+        return result;
+    }
     const std::byte* bytes = image.pixels.data();
     for (size_t i = 0; i < count; ++i) {
         uint16_t half = 0;

@@ -47,7 +47,7 @@ py::object arrayOf(Box const& box);
 /// Rows of `columns` finite numbers.
 std::vector<float> rowsOf(py::handle values, const char* name, size_t columns);
 
-/// uint8 of shape (height, width, 4) from RGBA8, float32 from RGBA16F: half floats, converted exactly.
+/// uint8 of shape (height, width, 4) from RGBA8; float32 from RGBA16F, converted exactly, and RGBA32F.
 py::array arrayOf(Image const& image);
 
 /// An image of Python: uint8 codes or float light, (height, width, 3 or 4).

@@ -2,6 +2,8 @@
 // Rendering to arrays, and what frames needed.
 #include "python/Bindings.h"
 
+#include <filament_core/RenderAovs.h>
+
 #include <map>
 #include <optional>
 #include <string>
@@ -98,6 +100,37 @@ py::array render(DrawingObject const& self, SceneObject const& scene, ViewObject
     return arrayOf(pixels);
 }
 
+std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
+    std::vector<Aov> aovs;
+    for (std::string const& name : names) {
+        const std::optional<Aov> aov = enumFromName<Aov>(name);
+        if (!aov || aov == Aov::None) raiseInvalid("names: '{}' is not {}", name, listed(enumNames<Aov>().subspan(1)));
+        aovs.push_back(*aov);
+    }
+    return aovs;
+}
+
+py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
+                      std::vector<std::string> const& names) {
+    Owner& owner = *engine.owner;
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    View settings = viewOf(view, owner);
+    settings.debugView = DebugView::None;
+    const uint32_t most = owner.device().maxTextureSize;
+    if (settings.size.x > most || settings.size.y > most)
+        raiseInvalid("size: {} x {} pixels, but the device draws at most {} a side", settings.size.x, settings.size.y,
+                     most);
+    const std::vector<Aov> aovs = aovsOf(names);
+    const Scene& content = *scene;
+    Result<std::vector<Image>> drawn = released([&] { return renderAovs(call.engine(), content, settings, aovs); });
+    checkFrame(owner);
+    const std::vector<Image> images = valueOf(std::move(drawn));
+    py::dict arrays;
+    for (size_t i = 0; i < images.size(); ++i) arrays[py::str(names[i])] = arrayOf(images[i]);
+    return arrays;
+}
+
 py::list decisionsOf(DrawingObject const& self) {
     const Owner::Call call(*self.owner());
     py::list list;
@@ -148,6 +181,12 @@ py::list timingsOf(DrawingObject const& self) {
 } // namespace
 
 void bindRenderer(py::module_& module) {
+    module.def(
+            "render_aovs", &renderAovsOf, py::arg("engine").none(false), py::arg("scene").none(false),
+            py::arg("view").none(false), py::arg("names"),
+            "Numbers of the surfaces that a view shows, by their names in docs/aovs.md: float32 arrays (height, width, "
+            "4), row 0 on top, with 1 in the last channel where there is a value, 0.5 where the material has none, "
+            "and 0 where no surface is. Other threads of Python run meanwhile.");
     py::class_<DrawingObject, std::shared_ptr<DrawingObject>>(
             module, "Renderer", "Draws scenes to arrays. Keeps what effects gather over frames.")
             .def(py::init(&makeRenderer), py::arg("engine"), py::kw_only(), py::arg("pass_timers") = false)

@@ -19,13 +19,13 @@ from ._core import (ClosedError, Comparison, CorruptError, DeviceError, Engine, 
                     Light, LightImage, Material, MaterialInstance, Mesh, Model, ModelCopy, NotFoundError, OutOfMemoryError,
                     ReflectionProbe, Renderer, Scene, Shape, Texture, ThreadError, UnreadableError, UnsupportedError, View, __version__, compare,
                     compile_material, compile_material_text, difference, flip, list_devices, load_picture, options,
-                    save_picture)
+                    render_aovs, save_picture)
 
 __all__ = ["ClosedError", "Comparison", "CorruptError", "DeviceError", "Engine", "Environment", "Error",
            "InvalidArgumentError", "Light", "LightImage", "Material", "MaterialInstance", "Mesh", "Model", "ModelCopy", "NotFoundError",
            "OutOfMemoryError", "ReflectionProbe", "Renderer", "Scene", "Shape", "Texture", "ThreadError", "UnreadableError",
            "UnsupportedError", "View", "__version__", "compare", "compile_material", "compile_material_text", "difference",
-           "flip", "list_devices", "load_picture", "options", "reports", "save_picture"]
+           "flip", "list_devices", "load_picture", "options", "render_aovs", "reports", "save_picture"]
 
 for _name in __all__:  # where users import them from: in messages, help() and pickles of exceptions
     if isinstance(globals()[_name], type):

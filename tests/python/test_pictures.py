@@ -47,6 +47,19 @@ class ClosedForms(unittest.TestCase):
         expected[:32, :32] = 1
         self.assertTrue((picture == expected).all())
 
+    def test_aovs_are_numbers_of_the_surface(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (0.25, 0.5, 3)), transform=placed(scale=0.5))
+        numbers = fc.render_aovs(self.engine, self.scene, flat_view(), ["depth", "position", "baseColor", "roughness"])
+        self.assertEqual(list(numbers), ["depth", "position", "baseColor", "roughness"])
+        self.assertEqual((numbers["depth"].dtype, numbers["depth"].shape), (np.float32, (64, 64, 4)))
+        self.assertEqual(numbers["depth"][..., 3].sum(), 32 * 32)
+        self.assertTrue((numbers["depth"][16:48, 16:48, 0] == 5).all())
+        self.assertEqual(numbers["position"][16, 16].tolist(), [-31 / 64, 31 / 64, -5, 1])
+        self.assertEqual(numbers["baseColor"][32, 32].tolist(), [0.25, 0.5, 3, 1])
+        self.assertEqual(numbers["roughness"][32, 32].tolist(), [0, 0, 0, 0.5])
+        with self.assertRaisesRegex(fc.InvalidArgumentError, "names: 'beauty' is not depth, position"):
+            fc.render_aovs(self.engine, self.scene, flat_view(), ["beauty"])
+
     def test_a_parallel_lens_shows_metres(self):
         self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)), transform=placed(scale=0.5))
         for metres, side in ((2, 32), (4, 16), (8, 8)):
