@@ -204,7 +204,7 @@ TEST(Aovs, LeaveTheFramesOfOtherRenderersAsTheyAre) {
 
 TEST(Aovs, AreLayersOfAnExrFile) {
     const std::filesystem::path file = test::folderOfThisTest() / "aovs.exr";
-    AovStage stage(Backend::OpenGLES);
+    AovStage stage(Backend::Gles);
     stage.add(kPainted, turned(AovStage::kEye + 2.2 * glm::normalize(double3(0.3, -0.2, -1))));
     const std::vector<Image> images = stage.draw();
     std::vector<ExrLayer> layers;

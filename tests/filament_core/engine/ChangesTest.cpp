@@ -226,7 +226,8 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
         scene.add(SunLight{ .directionWorld = { 0.3f, 0.2f, -1 } });
     };
     std::vector<std::byte> pixels = texels(random, 8 * 8 * 4);
-    const Owned<Texture> texture = stage.engine.own(stage.engine.create({ .width = 8, .height = 8, .pixels = pixels }));
+    const Owned<Texture> texture =
+            stage.engine.own(stage.engine.create(TextureDesc{ .width = 8, .height = 8, .pixels = pixels }));
     const Owned<MaterialInstance> instance = stage.engine.own(stage.engine.createInstance(leaf));
     ASSERT_TRUE(stage.engine.set(instance, "holes", texture));
     Scene scene(stage.engine);
@@ -235,7 +236,7 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
         pixels = texels(random, pixels.size());
         stage.engine.update(texture, { .pixels = pixels });
         const Owned<Texture> made =
-                stage.engine.own(stage.engine.create({ .width = 8, .height = 8, .pixels = pixels }));
+                stage.engine.own(stage.engine.create(TextureDesc{ .width = 8, .height = 8, .pixels = pixels }));
         const Owned<MaterialInstance> other = stage.engine.own(stage.engine.createInstance(leaf));
         ASSERT_TRUE(stage.engine.set(other, "holes", made));
         Scene fresh(stage.engine);

@@ -68,10 +68,10 @@ INSTANTIATE_TEST_SUITE_P(Apis, LightCookies, testing::ValuesIn(test::kBothApis),
 constexpr uint32_t kPixels = 48;
 
 /// A white wall of z = 0 whose pixels are points of a square of 2 * kHalf metres around the origin.
-struct Wall {
+struct ImageWall {
     static constexpr double kHalf = 0.17454; // 40 m away, half a degree
 
-    explicit Wall(Engine& engine) : patch(engine) {
+    explicit ImageWall(Engine& engine) : patch(engine) {
         patch.view.size = { kPixels, kPixels };
         patch.setSurface(float4(1), 0, 1);
     }
@@ -125,7 +125,7 @@ void expectSame(Image const& seen, Image const& expected) {
 void expectShares(Image const& seen, Image const& plain, auto const& shareOf, const char* name) {
     for (uint32_t y = 0; y < kPixels; ++y) {
         for (uint32_t x = 0; x < kPixels; ++x) {
-            const float3 share = rgb(seen, x, y) / rgb(plain, x, y), expected = shareOf(Wall::pointAt(x, y));
+            const float3 share = rgb(seen, x, y) / rgb(plain, x, y), expected = shareOf(ImageWall::pointAt(x, y));
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(share[c], expected[c], 0.012f) << name << ' ' << x << ' ' << y << ' ' << c;
         }
@@ -136,7 +136,7 @@ TEST_P(LightCookies, AWhiteCookieIsAPlainLight) {
     const Owned<LightImage> round = uniform(float4(1), LightImageShape::Octahedron);
     const Owned<LightImage> slide = uniform(float4(1), LightImageShape::Projected);
     const Owned<LightImage> tile = uniform(float4(1), LightImageShape::Tiled);
-    Wall wall(*engine);
+    ImageWall wall(*engine);
     PointLight point{ .positionWorld = { 0.03, 0.02, 0.3 }, .intensity = Candela{ wall.exposed(0.1f) } };
     SpotLight spot{ .positionWorld = point.positionWorld,
                     .directionWorld = { 0.1f, 0, -1 },
@@ -159,7 +159,7 @@ TEST_P(LightCookies, EveryPixelUnderASpotShowsTheTexelOfItsDirection) {
         const Picture picture = checker(size.x, size.y);
         const Owned<LightImage> image = cookie(picture, LightImageShape::Projected);
         for (const float3 up : { float3(0, 1, 0), float3(1, 0.5f, 0.2f) }) {
-            Wall wall(*engine);
+            ImageWall wall(*engine);
             const double height = 0.4;
             SpotLight light{ .positionWorld = { 0.02, -0.01, height },
                              .directionWorld = { 0, 0, -2 },
@@ -190,7 +190,7 @@ TEST_P(LightCookies, EveryPixelUnderASunShowsTheTexelOfItsPlaceInTheWorld) {
     const Picture picture = checker(4, 2);
     const Owned<LightImage> image = cookie(picture, LightImageShape::Tiled);
     for (const bool isListed : { false, true }) {
-        Wall wall(*engine);
+        ImageWall wall(*engine);
         if (isListed) // the brightest is in the uniforms: it shines from behind
             wall.patch.scene.add(SunLight{ .directionWorld = { 0, 0, 1 }, .illuminance = Lux{ wall.exposed(50) } });
         SunLight light{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ wall.exposed(1) } };
@@ -212,7 +212,7 @@ TEST_P(LightCookies, EveryPixelAroundAPointShowsTheTexelOfItsDirection) {
     const Picture picture = checker(8, 8);
     const Owned<LightImage> image = cookie(picture, LightImageShape::Octahedron);
     for (const bool isBehind : { false, true }) {
-        Wall wall(*engine);
+        ImageWall wall(*engine);
         PointLight light{ .positionWorld = { 0, 0, 0.2 }, .intensity = Candela{ wall.exposed(0.1f) } };
         const Image plain = wall.with(light);
         light.cookie = image;
@@ -240,7 +240,7 @@ TEST_P(LightCookies, ACubeShowsTheFaceThatTheRayMeets) {
     for (size_t i = 0; i < 96; ++i) faces.colors[i] = float4(colors[i % 24 / 4], 1);
     const Owned<LightImage> image = cookie(faces, LightImageShape::Cube);
     EXPECT_EQ(engine->describe(image).width, 8u) << "an octahedron";
-    Wall wall(*engine);
+    ImageWall wall(*engine);
     // The frame: -Z along the direction, +X along cross(direction, up).
     const struct {
         float3 direction, up;
@@ -259,7 +259,7 @@ TEST_P(LightCookies, ACubeShowsTheFaceThatTheRayMeets) {
 TEST_P(LightCookies, ANodeTurnsTheCookieOfItsLight) {
     const Picture picture = checker(4, 4);
     const Owned<LightImage> image = cookie(picture, LightImageShape::Projected);
-    Wall wall(*engine);
+    ImageWall wall(*engine);
     SpotLight light{ .positionWorld = { 0, 0, 0.4 },
                      .directionWorld = { 0, 0, -1 },
                      .intensity = Candela{ wall.exposed(0.1f) },
@@ -287,7 +287,7 @@ TEST_P(LightCookies, WhatIsSmallerThanAPixelIsItsMean) {
     for (uint32_t i = 0; i < 64 * 64; ++i) picture.colors.push_back(float4(float3((i + i / 64) % 2 == 0 ? 1 : 0), 1));
     const Owned<LightImage> image = cookie(picture, LightImageShape::Tiled);
     EXPECT_NEAR(engine->describe(image).mean.x, 0.5f, 1e-6f);
-    Wall wall(*engine);
+    ImageWall wall(*engine);
     SunLight light{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ wall.exposed(1) } };
     const Image plain = wall.with(light);
     light.cookie = image, light.cookieMeters = 0.007f; // a pixel is as wide
@@ -296,7 +296,7 @@ TEST_P(LightCookies, WhatIsSmallerThanAPixelIsItsMean) {
 }
 
 TEST_P(LightCookies, HardCasesAreNumbers) {
-    Wall wall(*engine);
+    ImageWall wall(*engine);
     const auto spot = [&](Picture const& picture, float outer = 0.7f, float3 direction = { 0, 0, -1 }) {
         const Owned<LightImage> image = cookie(picture, LightImageShape::Projected);
         return wall.with(SpotLight{ .positionWorld = { 0, 0, 0.3 },

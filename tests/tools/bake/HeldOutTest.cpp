@@ -296,7 +296,7 @@ protected:
 
 TEST_F(HeldOutGrid, OfACornellBoxIsWithinItsReportAt95Percent) {
     Holds holds;
-    bakeGrid(tests::cornellBox(), { 0, 1, 0 }, float3(0.95f), 0.5f, 256, holds);
+    bakeGrid(interiors::cornellBox().model, { 0, 1, 0 }, float3(0.95f), 0.5f, 256, holds);
     EXPECT_GE(holds.within, 0.95);
     EXPECT_LT(holds.withinNoise, 0.95) << "the bound says nothing";
     EXPECT_LT(holds.bound, 3);

@@ -114,7 +114,7 @@ template <> struct Fields<View> {
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
                                              field("visibleLayers", &View::visibleLayers) };
-    static constexpr size_t others = 2; // viewport, debugDraw
+    static constexpr size_t others = 3; // viewport, debugDraw, aov
 };
 template <> struct Fields<GltfLoadOptions> {
     static constexpr auto list = std::tuple{ field("positions", &GltfLoadOptions::positions),
