@@ -67,8 +67,8 @@ struct ExrLayer {
 };
 
 /// One part of scan lines, compressed without loss; samples keep their bits. Errors: InvalidArgument (images of
-/// different sizes or of other formats; no channel; names of more than 31 letters, or there twice), Unreadable with path
-/// and reason.
+/// different sizes or of other formats; no channel; names of more than 31 letters, or there twice), Unreadable with
+/// path and reason.
 Result<void> saveExr(std::filesystem::path const& path, std::span<const ExrLayer> layers);
 
 } // namespace filament_core

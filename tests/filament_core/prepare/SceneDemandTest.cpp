@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: tests of the demand for each effect.
 // Demand as a pure function, and as what prepareFrame() finds in scenes: without a device.
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/GuardBand.h"
