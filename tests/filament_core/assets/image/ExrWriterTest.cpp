@@ -46,6 +46,26 @@ std::string exrText(std::span<const std::byte> bytes) {
     return { reinterpret_cast<const char*>(bytes.data()), bytes.size() };
 }
 
+TEST(ExrWriter, LayersKeepTheirNamesAndTheirPrecision) {
+    const std::array<uint16_t, 4> halves{ 0x243F, 0x6A88, 0x85A3, 0x08D3 }; // two pixels of two channels
+    const std::array<uint32_t, 2> floats{ 0x13198A2E, 0x03707344 };         // two pixels of one
+    const auto at = [](auto const& values, size_t i) { return reinterpret_cast<const std::byte*>(&values[i]); };
+    const std::array<ExrSource, 3> sources{ { { "normal.Y", ExrType::Half, at(halves, 1), 4 },
+                                              { "depth.Z", ExrType::Float, at(floats, 0), 4 },
+                                              { "normal.X", ExrType::Half, at(halves, 0), 4 } } };
+    const auto file = encodeExr(2, 1, sources);
+    std::string expected = exrHeader("depth.Z\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0"
+                                     "normal.X\0\1\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0"
+                                     "normal.Y\0\1\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\0"sv,
+                                     "\1\0\0\0\0\0\0\0"sv);
+    const size_t offset = expected.size() + 8;
+    expected += { static_cast<char>(offset & 0xFF), static_cast<char>(offset >> 8), 0, 0, 0, 0, 0, 0 };
+    expected += "\0\0\0\0\x10\0\0\0"sv; // row 0, 16 bytes
+    expected += "\x2E\x8A\x19\x13\x44\x73\x70\x03"sv;
+    expected += "\x3F\x24\xA3\x85\x88\x6A\xD3\x08"sv;
+    EXPECT_EQ(exrText(file), expected);
+}
+
 /// Compressing does not make them smaller, so that no version of zlib matters.
 TEST(ExrWriter, APictureOfFourPixelsHasTheBytesOfTheSpecification) {
     const std::array<uint16_t, 12> rgb{ 0x243F, 0x6A88, 0x85A3, 0x08D3, 0x1319, 0x8A2E,
