@@ -344,9 +344,9 @@ TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
     const Owned<Texture> plain = engine.own(engine.create(TextureDesc{ .width = kFilmSide, .height = kFilmSide }));
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{}), "a render target has a colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }),
-                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
+                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }),
-                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
+                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = color }), "texture of R32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as its colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .generateMips = true }), "has several levels");
