@@ -15,7 +15,7 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 12;   ///< incremented when old readers would misread a file
+inline constexpr uint32_t kVersion = 13;   ///< incremented when old readers would misread a file
 inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything after the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");

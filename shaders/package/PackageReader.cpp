@@ -2,7 +2,7 @@
 #include "base/Hash.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ByteReader.h"
-#include "shaders/package/Deflate.h"
+#include "shaders/package/Compression.h"
 #include "shaders/package/Package.h"
 #include "shaders/package/PackageError.h"
 #include "shaders/package/PackageFormat.h"
@@ -311,7 +311,7 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
         return corruptPackage("the constants are malformed");
     if (!readTerms(section(kSectionTerms), package.terms)) return corruptPackage("the terms are malformed");
     if (!readLayout(section(kSectionLayout), package.layout)) return corruptPackage("the binding layout is malformed");
-    const Result<std::vector<std::byte>> unpacked = inflateBytes((*sections)[kSectionCode], kMaxCodeBytes);
+    const Result<std::vector<std::byte>> unpacked = decompressBytes((*sections)[kSectionCode], kMaxCodeBytes);
     if (!unpacked) return unpacked.error();
     Code code;
     if (!readCode(ByteReader(*unpacked), code)) return corruptPackage("the code of the variants is malformed");

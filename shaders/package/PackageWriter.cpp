@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Hash.h"
-#include "shaders/package/Deflate.h"
+#include "shaders/package/Compression.h"
 #include "shaders/package/Package.h"
 #include "shaders/package/PackageFormat.h"
 
@@ -187,7 +187,7 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     CodePool code;
     const ByteWriter variants = variantSection(package.variants, code);
     ByteWriter packed;
-    packed.append(deflateBytes(code.section().bytes()));
+    packed.append(compressBytes(code.section().bytes()));
     sections.section(kSectionCode, packed);
     sections.section(kSectionVariants, variants);
 
