@@ -80,7 +80,14 @@ TEST(Options, DebugViewsAreSetByName) {
         const std::string word = std::string("debugView=") + toString(view);
         EXPECT_EQ(parsed({ "--set", word.c_str() }).view.debugView, view);
     }
-    EXPECT_THAT(refused({ "--set", "debugView=depth" }), HasSubstr(listed(enumNames<DebugView>())));
+    EXPECT_THAT(refused({ "--set", "debugView=brightness" }), HasSubstr(listed(enumNames<DebugView>())));
+}
+
+TEST(Options, AovsAreNamesEachOnce) {
+    EXPECT_TRUE(parsed({}).aovs.empty());
+    EXPECT_EQ(parsed({ "--aovs", "normal,depth" }).aovs, (std::vector{ Aov::Normal, Aov::Depth }));
+    for (const char* words : { "none", "depth,depth", "beauty", "depth,,normal" })
+        EXPECT_THAT(refused({ "--aovs", words }), HasSubstr("depth, position")) << words;
 }
 
 TEST(Options, DirtOfTheLensIsAFile) {
