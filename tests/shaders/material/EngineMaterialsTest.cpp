@@ -56,7 +56,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
                                                                          // shadowed, or not
         const size_t color = package.shading == ShadingModel::Unlit ? unlit : lit;
         const bool isSurface = package.domain == MaterialDomain::Surface;
-        const bool isDeformable = isSurface && package.vertexDomain == VertexDomain::Object;
+        const bool isDeformable = isSurface && package.vertexDomain == VertexDomain::Object &&
+                                  (package.filteredVariants & kVariantSkinning) == 0;
         const bool stopsLight = package.blending == Blending::Opaque || package.blending == Blending::Masked;
         const size_t depth = isSurface && stopsLight && (package.depthWrite || isDeformable) ? 1 : 0;
         const bool hasVertexBlock = name == "motion" || name == "level_fade" || name == "built_in_wireframe";
