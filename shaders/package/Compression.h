@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compressBytes, decompressBytes: compression with Zstandard (RFC 8878); the same input and version of the library give
-/// the same bytes.
+/// compressBytes, decompressBytes: compression with Zstandard (RFC 8878); the same input and version of the library
+/// give the same bytes.
 ///   Form    the size (u32), then one frame that names it, too, and has no checksum: the file has one.
 ///   Why     stages of one material have most of their code in common, hundreds of kilobytes apart: the 32 KiB that
 ///           DEFLATE looks back never reach it. Packages are 13 to 18 % smaller, and unpack four times as fast.
