@@ -26,7 +26,7 @@ std::string progressLine(uint64_t done, uint64_t total, uint64_t before, double 
                        left);
 }
 
-/// Of those that are traced, from `first` to `last`, which are all beyond the texels.
+/// The held-out points with the numbers [first, last) of what is traced; the numbers of texels come before theirs.
 std::vector<AtlasTexel> heldOutTexels(BakeScene const& bake, size_t first, size_t last) {
     std::vector<AtlasTexel> points;
     for (size_t i = first; i < last; ++i) points.push_back(bake.heldOut[i - bake.texels.size()].texel);

@@ -2,6 +2,7 @@
 // Light cookies in images: each pixel of a wall shows the texel of its direction or place, a white cookie is a plain
 // light, and unneeded images do not exist.
 #include "shaders/interface/ShaderInterface.h"
+#include "tests/filament_core/engine/NullFrame.h"
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
 #include <filament_core/LightImage.h>
@@ -325,13 +326,8 @@ TEST_P(LightCookies, HardCasesAreNumbers) {
 
 // ---- what is not needed
 
-struct CookieFrame {
-    uint64_t stream = 0;
-    std::string explanation;
-};
-
 /// A patch under one plain light, and `count` with a cookie or without.
-CookieFrame cookieFrame(PointLight other, bool hasCookie, uint32_t count = 1) {
+test::NullFrame cookieFrame(PointLight other, bool hasCookie, uint32_t count = 1) {
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 0, .hashFrames = true });
     if (!engine) {
         ADD_FAILURE() << engine.error().message;
@@ -342,12 +338,7 @@ CookieFrame cookieFrame(PointLight other, bool hasCookie, uint32_t count = 1) {
     patch.scene.add(PointLight{ .positionWorld = { 0, 0, 1 } });
     if (hasCookie) other.cookie = image;
     for (uint32_t i = 0; i < count; ++i) patch.scene.add(other);
-    Renderer renderer(*engine);
-    const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = patch.view.size }));
-    renderer.render(patch.scene, patch.view, target);
-    engine->waitIdle();
-    const std::vector<FrameTimings> timings = renderer.takeTimings();
-    return { timings.empty() ? 0 : timings.back().streamHash, renderer.explain() };
+    return test::nullFrame(*engine, patch.scene, patch.view);
 }
 
 TEST(LightCookieDemand, ACookieThatNoLitSurfaceSeesChangesNoCommand) {
@@ -355,13 +346,13 @@ TEST(LightCookieDemand, ACookieThatNoLitSurfaceSeesChangesNoCommand) {
     const PointLight ofOthers{ .positionWorld = { 0, 0, 1 }, .lightChannels = 0b10 };
     const PointLight dark{ .positionWorld = { 0, 0, 1 }, .intensity = Candela{ 0 } };
     for (PointLight const& light : { far, ofOthers, dark }) {
-        const CookieFrame with = cookieFrame(light, true), without = cookieFrame(light, false);
+        const test::NullFrame with = cookieFrame(light, true), without = cookieFrame(light, false);
         EXPECT_NE(with.stream, 0u);
         EXPECT_EQ(with.stream, without.stream);
         EXPECT_THAT(with.explanation, HasSubstr("light images          not needed"));
     }
     const PointLight near{ .positionWorld = { 0, 0, 1 } };
-    const CookieFrame with = cookieFrame(near, true);
+    const test::NullFrame with = cookieFrame(near, true);
     EXPECT_NE(with.stream, cookieFrame(near, false).stream);
     EXPECT_THAT(with.explanation, HasSubstr("light images          needed"));
 }

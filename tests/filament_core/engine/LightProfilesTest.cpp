@@ -4,6 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/tables/LightProfileTable.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
+#include "tests/filament_core/engine/NullFrame.h"
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 #include "toolkit/paths/Paths.h"
@@ -307,13 +308,8 @@ TEST_P(LightProfiles, NoDirectionGivesWhatIsNotANumberOrNegative) {
 
 // ---- what is not needed
 
-struct ProfiledFrame {
-    uint64_t stream = 0;
-    std::string explanation;
-};
-
 /// A patch under one plain light, and one with a profile.
-ProfiledFrame frameWith(PointLight other, bool hasProfile) {
+test::NullFrame frameWith(PointLight other, bool hasProfile) {
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 0, .hashFrames = true });
     if (!engine) {
         ADD_FAILURE() << engine.error().message;
@@ -324,12 +320,7 @@ ProfiledFrame frameWith(PointLight other, bool hasProfile) {
     patch.scene.add(PointLight{ .positionWorld = { 0, 0, 1 } });
     if (hasProfile) other.profile = profile;
     patch.scene.add(other);
-    Renderer renderer(*engine);
-    const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = patch.view.size }));
-    renderer.render(patch.scene, patch.view, target);
-    engine->waitIdle();
-    const std::vector<FrameTimings> timings = renderer.takeTimings();
-    return { timings.empty() ? 0 : timings.back().streamHash, renderer.explain() };
+    return test::nullFrame(*engine, patch.scene, patch.view);
 }
 
 TEST(LightProfileDemand, AProfileThatNoLitSurfaceSeesChangesNoCommand) {
@@ -337,13 +328,13 @@ TEST(LightProfileDemand, AProfileThatNoLitSurfaceSeesChangesNoCommand) {
     const PointLight ofOthers{ .positionWorld = { 0, 0, 1 }, .lightChannels = 0b10 };
     const PointLight dark{ .positionWorld = { 0, 0, 1 }, .intensity = Candela{ 0 } };
     for (PointLight const& light : { far, ofOthers, dark }) {
-        const ProfiledFrame with = frameWith(light, true), without = frameWith(light, false);
+        const test::NullFrame with = frameWith(light, true), without = frameWith(light, false);
         EXPECT_NE(with.stream, 0u);
         EXPECT_EQ(with.stream, without.stream);
         EXPECT_THAT(with.explanation, HasSubstr("light profiles        not needed"));
     }
     const PointLight near{ .positionWorld = { 0, 0, 1 } };
-    const ProfiledFrame with = frameWith(near, true);
+    const test::NullFrame with = frameWith(near, true);
     EXPECT_NE(with.stream, frameWith(near, false).stream);
     EXPECT_THAT(with.explanation, HasSubstr("light profiles        needed"));
 }

@@ -23,11 +23,16 @@ Image pictureOn(Backend backend, Document const& document) {
     return image ? std::move(*image) : Image{};
 }
 
-TEST(LightWork, ACapturedProbeLightsTheSceneAndIsAPartOfTheDocument) {
-    ViewerOptions options = testOptions(Backend::Vulkan);
+ViewerOptions optionsWithEmptyFolder(Backend backend) {
+    ViewerOptions options = testOptions(backend);
     options.out = test::folderOfThisTest();
     std::filesystem::remove_all(options.out);
     std::filesystem::create_directories(options.out);
+    return options;
+}
+
+TEST(LightWork, ACapturedProbeLightsTheSceneAndIsAPartOfTheDocument) {
+    const ViewerOptions options = optionsWithEmptyFolder(Backend::Vulkan);
     Headless headless(options, kSmallPicture);
     ASSERT_TRUE(headless.viewer);
     headless.settle();
@@ -69,10 +74,7 @@ TEST(LightWork, ACapturedProbeLightsTheSceneAndIsAPartOfTheDocument) {
 }
 
 TEST(LightWork, ABakedLightmapTakesThePlaceOfTheModel) {
-    ViewerOptions options = testOptions(Backend::Gles);
-    options.out = test::folderOfThisTest();
-    std::filesystem::remove_all(options.out);
-    std::filesystem::create_directories(options.out);
+    const ViewerOptions options = optionsWithEmptyFolder(Backend::Gles);
     Headless headless(options, kSmallPicture);
     ASSERT_TRUE(headless.viewer);
     headless.settle();
