@@ -80,8 +80,17 @@ constexpr Contradiction kContradictions[] = {
     { [](MaterialDefinition const& d) { return refracts(d) && blendsRefraction(d.package.blending); }, "refractionMode",
       "a refracting material shows the background itself; leave out blending, or set blending : fade where alpha is "
       "coverage" },
-    { [](MaterialDefinition const& d) { return d.package.shadowMultiplier && !isUnlit(d); }, "shadowMultiplier",
-      "shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
+    { [](MaterialDefinition const& d) {
+         return d.package.shadowMultiplier && !isUnlit(d) && d.package.shading != ShadingModel::Lit;
+     },
+      "shadowMultiplier", "shadowMultiplier is for shadingModel : unlit or lit" },
+    { [](MaterialDefinition const& d) {
+         return d.package.shadowMultiplier && !isUnlit(d) && d.package.blending != Blending::Transparent;
+     },
+      "shadowMultiplier", "a lit surface that only shows shadows is transparent; set blending : transparent" },
+    { [](MaterialDefinition const& d) { return d.package.shadowMultiplier && (d.customSurfaceShading || refracts(d)); },
+      "shadowMultiplier",
+      "the shares of shadows are those of the standard model; leave out customSurfaceShading and refractionMode" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading && d.package.shading != ShadingModel::Lit; },
       "customSurfaceShading", "customSurfaceShading works with shadingModel : lit only" },
     { [](MaterialDefinition const& d) {

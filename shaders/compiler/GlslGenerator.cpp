@@ -341,6 +341,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
         done = includeAll(out, { "shaders/lib/reflection.glsl", "shaders/material/surface/reflections.glsl" });
     if (done) done = out.include(shadingText(definition.package.shading));
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_light.glsl");
+    if (done && definition.package.shadowMultiplier)
+        done = includeAll(out, { "shaders/lib/color.glsl", "shaders/material/surface/shadow_catcher.glsl" });
     if (done && hasLightList) done = out.include("shaders/material/surface/light_images.glsl");
     if (done && hasLightList) done = areaLights(out, definition);
     if (done && hasLightList) done = out.include("shaders/material/surface/profiles.glsl");

@@ -321,7 +321,9 @@ constexpr std::array kProperties{
     property<&MaterialPackage::reflections>("reflections", "`screenspace`: the surface reflects the picture"),
     property<&MaterialPackage::shadowMultiplier>(
             "shadowMultiplier",
-            "an unlit surface that only shows shadows: colour and alpha are scaled by how dark they are"),
+            "a surface that only shows shadows: unlit, colour and alpha are scaled by that of the brightest sun; lit, "
+            "alpha is "
+            "scaled by the share of all light that shadows take, and screen-space reflections are added"),
     property<&MaterialPackage::transparentShadow>("transparentShadow",
                                                   "blended surfaces cast dithered shadows, as dense as their alpha"),
     property<&MaterialDefinition::clearCoatIorChange>(

@@ -11,6 +11,13 @@ const int kToneMapMobile = 3; // one division, transfer function included
 // Relative luminance of linear Rec. 709. ITU-R BT.709-6, item 3.2.
 float luminance(vec3 linear) { return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
+// The part of `light` that shadows take, of which they leave `left`: [0, 1]; 0 where there is no light. fp32 only:
+// both have any scale.
+float shadowedShare(vec3 left, vec3 light) {
+    float open = luminance(light);
+    return open > 0.0f ? clamp(1.0f - luminance(left) / open, 0.0f, 1.0f) : 0.0f;
+}
+
 // ACES reference rendering and output transform for a Rec. 709 display, fitted by Hill: "ACES.hlsl" of Pettineo's
 // BakingLab, 2016. The two matrices convert to and from the space in which the curve is applied, which desaturates
 // bright colours.

@@ -192,7 +192,7 @@ Result<void> Stage::addGround(double level) {
     const auto side = static_cast<float>(8 * std::max({ size.x, size.y, size.z }));
     const Result<Mesh> plane = makePlane({ .width = side, .depth = side });
     if (!plane) return plane.error();
-    Result<Material> catcher = createBuiltInMaterial(mEngine, "shadowCatcher");
+    Result<Material> catcher = createBuiltInMaterial(mEngine, "litShadowCatcher");
     if (!catcher) return catcher.error();
     mCatcher = mEngine.own(*catcher);
     mShadows = mEngine.own(mEngine.createInstance(mCatcher));

@@ -25,13 +25,15 @@ constexpr std::array kBuiltIn{
     BuiltInMaterial{ "litVertexColors", "lit, with a colour for each vertex" },
     BuiltInMaterial{ "vertexColors", "a colour for each vertex, whatever the light" },
     BuiltInMaterial{ "shadowCatcher", "nothing but the shadows on it" },
+    BuiltInMaterial{ "litShadowCatcher", "the shadows of all lights on it, and screen-space reflections" },
     BuiltInMaterial{ "wireframe", "lines of any width: makeWireframe(), makeLineQuads()" },
 };
 
 /// The packages of kBuiltIn, in its order.
 constexpr std::array<std::string_view, kBuiltIn.size()> kPackages{
     "built_in_lit",        "built_in_unlit",        "built_in_lit_textured",   "built_in_unlit_textured",
-    "built_in_lit_colors", "built_in_unlit_colors", "built_in_shadow_catcher", "built_in_wireframe",
+    "built_in_lit_colors", "built_in_unlit_colors", "built_in_shadow_catcher", "built_in_lit_shadow_catcher",
+    "built_in_wireframe",
 };
 
 struct InitialValue {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sum over all lights that reach a surface: shadeLight() of the shading model for each.
 
-// Lights in full shadow are not shaded; authors' models see them, too.
+// Lights in full shadow are not shaded; authors' models see them, and catchers of shadows weigh them.
 bool isLit(highp vec3 visibility) {
-#if defined(CUSTOM_SURFACE_SHADING)
+#if defined(CUSTOM_SURFACE_SHADING) || defined(SHADOW_MULTIPLIER)
     return true;
 #else
     return max3(visibility) > 0.0;
@@ -97,6 +97,9 @@ highp vec3 punctualLight(Surface surface, ListedLight listed) {
             highp float reach = isSun ? frameUniforms.contactShadows.x : sqrt(dot(toLight, toLight));
             visibility *= contactVisibility(isAsked, direction, reach);
         }
+#if defined(SHADOW_MULTIPLIER)
+        highp vec3 left = takeShadow(visibility);
+#endif
         AreaLight area;
         if (isAnArea) area = areaLightAt(index, toLight, colorIntensity);
         if (quality_lightImages != 0 && isLit(visibility)) {
@@ -119,6 +122,9 @@ highp vec3 punctualLight(Surface surface, ListedLight listed) {
 #endif
             light = shadeLight(surface, arriving);
         }
+#if defined(SHADOW_MULTIPLIER)
+        shading_leftByShadows += light * left;
+#endif
     }
     return light;
 }
@@ -154,6 +160,9 @@ highp vec3 sunLight(Surface surface) {
         bool isAsked = frameUniforms.contactShadows.w > 0.0 && max3(visibility) > 0.0;
         visibility *= contactVisibility(isAsked, frameUniforms.sunDirection.xyz, frameUniforms.contactShadows.x);
     }
+#if defined(SHADOW_MULTIPLIER)
+    highp vec3 left = takeShadow(visibility);
+#endif
     Light sun;
     sun.direction = frameUniforms.sunDirection.xyz;
     sun.illuminance = frameUniforms.sunIlluminance.rgb * visibility;
@@ -163,7 +172,13 @@ highp vec3 sunLight(Surface surface) {
     sun.visibility = max3(visibility);
     sun.position = vertex_worldPosition + sun.direction;
 #endif
+#if defined(SHADOW_MULTIPLIER)
+    highp vec3 light = shadeLight(surface, sun);
+    shading_leftByShadows += light * left;
+    return light;
+#else
     return shadeLight(surface, sun);
+#endif
 }
 
 #endif

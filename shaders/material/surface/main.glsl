@@ -34,13 +34,17 @@ void main() {
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
     if (ofFragment(frameUniforms.ambient.x) > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x;
+#if defined(SHADOW_MULTIPLIER)
+    shading_leftByShadows = light;
+    if (ofFragment(frameUniforms.ambient.x) > 0.0) light = shadeOpenEnvironment(surface) * frameUniforms.ambient.x;
+#endif
 #if defined(HAS_BAKED_LIGHT)
     light += bakedReflection(surface);
 #endif
 #if defined(REFRACTION_OF_PICTURE)
     if (quality_screenRefraction != 0) light += refractedPicture(surface);
 #endif
-#if defined(REFLECTION_OF_PICTURE)
+#if defined(REFLECTION_OF_PICTURE) && !defined(SHADOW_MULTIPLIER)
     if (quality_screenReflections != 0) light += reflectedPicture(surface);
 #endif
     addLights(surface, light);
@@ -48,7 +52,11 @@ void main() {
     light *= inputs.baseColor.a;
 #endif
 
+#if defined(SHADOW_MULTIPLIER)
+    highp vec4 color = caughtShadow(surface, light, inputs.baseColor.a);
+#else
     highp vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
+#endif
     addEmissive(inputs, color);
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)

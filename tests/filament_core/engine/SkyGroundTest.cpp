@@ -7,7 +7,9 @@
 #include <filament_core/BuiltInMaterials.h>
 #include <filament_core/Environment.h>
 
+#include <array>
 #include <filesystem>
+#include <functional>
 
 namespace filament_core {
 namespace {
@@ -114,6 +116,43 @@ TEST(SkyGround, TheCatcherShowsShadowsAlone) {
     const float4 shadowed = halfPixel(drawn(true, true), 4, 4);
     EXPECT_NEAR(shadowed.x, 0.5f * 0.4f, 1e-3f);
     EXPECT_NEAR(shadowed.z, 0.125f * 0.4f, 1e-3f);
+}
+
+/// The center of a ground that faces the camera, under a sun from there, which a caster may hide, and another light.
+float4 caught(bool hasCaster, std::function<void(MaterialStage&, Lux sun)> const& addLight) {
+    const Image image = onBothApis([&](MaterialStage& stage) {
+        stage.view.clearColor = { 0.5f, 0.25f, 0.125f, 1 };
+        const Lux sun{ 3.14159265f / stage.view.camera.exposure.factor() }; // as much as kWhiteSky
+        stage.scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = sun });
+        addLight(stage, sun);
+        Result<Material> catcher = createBuiltInMaterial(stage.engine, "litShadowCatcher");
+        ASSERT_TRUE(catcher) << catcher.error().message;
+        const MaterialInstance ground = stage.keep(*catcher);
+        stage.engine.set(ground, "reflectance", 0.0f);
+        stage.add(ground, { {} });
+        if (!hasCaster) return;
+        Result<Material> solid = createBuiltInMaterial(stage.engine, "unlit");
+        ASSERT_TRUE(solid) << solid.error().message;
+        stage.add(stage.keep(*solid), { { .z = 6 } }); // behind the camera, towards the sun
+    });
+    return halfPixel(image, 4, 4);
+}
+
+TEST(SkyGround, TheLitCatcherKeepsTheShareOfAllLightThatShadowsLeave) {
+    const auto none = [](MaterialStage&, Lux) {};
+    const auto lamp = [](MaterialStage& stage, Lux sun) {
+        stage.scene.add(SunLight{
+                .directionWorld = { 0.6f, 0, -0.8f }, .illuminance = Lux{ 0.5f * sun.value }, .castsShadows = false });
+    };
+    const auto sky = [](MaterialStage& stage, Lux) { stage.keep(std::make_shared<SkyObjects>(stage, kWhiteSky)); };
+    const std::array<std::function<void(MaterialStage&, Lux)>, 3> others{ none, lamp, sky };
+    const std::array left{ 0.0f, 0.5f * 0.8f / 1.4f, 0.5f }; // illuminance over that with the sun
+    for (size_t i = 0; i < others.size(); ++i) {
+        const float4 open = caught(false, others[i]), shadowed = caught(true, others[i]);
+        EXPECT_NEAR(open.x, 0.5f, 1e-3f) << i;
+        EXPECT_NEAR(shadowed.x, 0.5f * left[i], 2e-3f) << i;
+        EXPECT_NEAR(shadowed.z, 0.125f * left[i], 1e-3f) << i;
+    }
 }
 
 } // namespace

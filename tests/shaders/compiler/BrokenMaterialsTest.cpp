@@ -101,7 +101,12 @@ constexpr Broken kContradictions[] = {
     { "material {\n shadingModel : unlit,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: an unlit material cannot refract; use shadingModel : lit" },
     { "material {\n shadowMultiplier : true }" GOOD_FRAGMENT,
-      "a.mat:2: shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
+      "a.mat:2: a lit surface that only shows shadows is transparent; set blending : transparent" },
+    { "material {\n shadingModel : cloth,\n shadowMultiplier : true, blending : transparent }" GOOD_FRAGMENT,
+      "a.mat:3: shadowMultiplier is for shadingModel : unlit or lit" },
+    { "material {\n customSurfaceShading : true,\n shadowMultiplier : true, blending : transparent }" GOOD_FRAGMENT,
+      "a.mat:3: the shares of shadows are those of the standard model; leave out customSurfaceShading and "
+      "refractionMode" },
     { "material {\n shadingModel : cloth,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: cloth lets light through without refraction; use shadingModel : lit" },
     { "material {\n shadingModel : subsurface,\n refractionMode : cubemap }" GOOD_FRAGMENT,
