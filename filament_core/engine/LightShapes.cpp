@@ -3,6 +3,7 @@
 
 #include "base/math/Elementary.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "shaders/interface/ShaderInterface.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@ namespace {
 
 using scene::LightRecord;
 using scene::LightShape;
+using scene::ShownImage;
 
 constexpr uint32_t kSides = 64; // of discs and tubes: at most 0.12 % of the radius inside of it
 
@@ -124,12 +126,44 @@ void setLuminance(Engine::Impl& engine, LightShape const& shape, LightRecord con
     engine.instances.get(shape.instance).raster.cullingDisabled = light.isTwoSided;
 }
 
+/// The levels of a table (assets/tables/LightImageTable.h) without their borders.
+Texture textureOf(Engine::Impl& engine, std::vector<uint32_t> const& table) {
+    const uint32_t width = table[0], height = table[1], levels = table[2] + 1;
+    std::vector<uint32_t> texels;
+    for (uint32_t level = 0; level < levels; ++level) {
+        const uint32_t columns = std::max(width >> level, 1u), rows = std::max(height >> level, 1u);
+        for (uint32_t row = 0; row < rows; ++row) {
+            const auto first = table.begin() + table[shader::kImageHeaderWords + level] + (row + 1) * (columns + 2) + 1;
+            texels.insert(texels.end(), first, first + columns);
+        }
+    }
+    return engine.createTexture({ .format = Format::RGB9E5,
+                                  .width = width,
+                                  .height = height,
+                                  .levels = levels,
+                                  .pixels = std::as_bytes(std::span(texels)),
+                                  .name = "image of a light" });
+}
+
+/// A texture that shows the light's image, which `before` may be; none for lights without one.
+ShownImage shownImage(Engine::Impl& engine, LightRecord const& light, ShownImage const& before) {
+    if (before.words == light.image) return before;
+    if (before.texture) engine.destroy(before.texture);
+    if (!light.image) return {};
+    return { light.image, textureOf(engine, *light.image) };
+}
+
+/// Leaves its image.
 void endShape(Engine::Impl& engine, scene::SceneData& data, LightShape const& shape) {
     scene::removeRenderable(data, shape.renderable);
     engine.destroy(shape.instance);
 }
 
-void beginShape(Scene::Impl& scene, Light light) {
+void destroyImage(Engine::Impl& engine, LightShape const& shape) {
+    if (shape.shown.texture) engine.destroy(shape.shown.texture);
+}
+
+void beginShape(Scene::Impl& scene, Light light, ShownImage const& shown) {
     Engine::Impl& engine = scene.engine;
     scene::SceneData& data = scene.data;
     LightRecord const& record = data.lights.records[data.lights.index.at(light)];
@@ -137,8 +171,14 @@ void beginShape(Scene::Impl& scene, Light light) {
     data.lightShapes.reserve(data.lightShapes.size() + 1);
     LightShape shape{ .light = light,
                       .renderable = {},
-                      .instance = engine.createInstance(engine.engineMaterial("light_shape", {}), "light"),
+                      .instance = engine.createInstance(
+                              engine.engineMaterial(shown.texture ? "light_shape_image" : "light_shape", {}), "light"),
+                      .shown = shown,
                       .worldFromShape = placeOf(record) };
+    if (shown.texture) {
+        const Result<void> written = engine.set(shape.instance, "image", shown.texture, {});
+        FILAMENT_ASSERT(written.ok(), "the engine's material has the parameter");
+    }
     setLuminance(engine, shape, record);
     const GeometryDesc desc = geometryOf(engine, record);
     scene::MaterialInstance const& material = engine.instances.get(shape.instance);
@@ -158,24 +198,28 @@ void updateLightShape(Scene::Impl& scene, Light light) {
     scene::SceneData& data = scene.data;
     LightRecord const& record = data.lights.records[data.lights.index.at(light)];
     const auto known = std::ranges::find(data.lightShapes, light, &LightShape::light);
-    if (known != data.lightShapes.end()) { // its shape, sides and colour may have changed
+    ShownImage shown;
+    if (known != data.lightShapes.end()) { // its shape, sides, colour and image may have changed
+        shown = known->shown;
         endShape(scene.engine, scene.changedUses(), *known);
         data.lightShapes.erase(known);
     }
-    if (record.isVisible && record.isArea()) beginShape(scene, light);
+    const bool isDrawn = record.isVisible && record.isArea();
+    shown = shownImage(scene.engine, isDrawn ? record : LightRecord{}, shown);
+    if (isDrawn) beginShape(scene, light, shown);
 }
 
 void placeLightShapes(Engine::Impl& engine, scene::SceneData& data) {
     const auto removed = std::ranges::partition(
             data.lightShapes, [&](LightShape const& shape) { return data.lights.index.contains(shape.light); });
-    for (LightShape const& shape : removed) endShape(engine, data, shape);
+    for (LightShape const& shape : removed) endShape(engine, data, shape), destroyImage(engine, shape);
     data.lightShapes.erase(removed.begin(), removed.end());
     for (LightShape& shape : data.lightShapes)
         place(data, shape, data.lights.records[data.lights.index.at(shape.light)]);
 }
 
 void destroyLightShapes(Engine::Impl& engine, scene::SceneData& data) {
-    for (LightShape const& shape : data.lightShapes) engine.destroy(shape.instance);
+    for (LightShape const& shape : data.lightShapes) engine.destroy(shape.instance), destroyImage(engine, shape);
     data.lightShapes.clear();
 }
 

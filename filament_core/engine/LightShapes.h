@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightShapes: rectangles, discs and tubes that are drawn (RectLight::isVisible), each as a renderable of the scene
-/// that the app has no handle of, with the light's luminance.
+/// that the app has no handle of, with the light's luminance and its image.
 ///   Thread  the app thread.
-///   Memory  a renderable and a material instance for each such light; one mesh an engine, made at the first.
+///   Memory  a renderable and a material instance for each such light, of an image a texture; one mesh an engine, made
+///           at the first.
 ///   Cost    without such a light a test of an empty list each frame.
 #pragma once
 

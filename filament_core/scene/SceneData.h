@@ -110,11 +110,18 @@ struct SplatRecord {
     std::shared_ptr<const SplatData> data;
 };
 
+/// The image of a light that is drawn, as a texture.
+struct ShownImage {
+    std::shared_ptr<const std::vector<uint32_t>> words{}; ///< LightRecord::image
+    Texture texture{};
+};
+
 /// A light that is drawn, by a renderable that the app has no handle of.
 struct LightShape {
     Light light;
     Renderable renderable;
     filament_core::MaterialInstance instance;
+    ShownImage shown{};
     double4x4 worldFromShape{ 1.0 };
 };
 

@@ -202,6 +202,15 @@ double DirectLights::distanceTo(Light const& light, double3 origin, double3 dire
     return isInside ? distance : kNowhere;
 }
 
+/// Of the image of a rectangle, at a point of it.
+double3 DirectLights::shownBy(Light const& light, double3 at) {
+    if (!light.image) return double3(1.0);
+    const double3 from = at - light.position;
+    const double2 place(glm::dot(from, light.halfX) / glm::dot(light.halfX, light.halfX),
+                        glm::dot(from, light.halfY) / glm::dot(light.halfY, light.halfY));
+    return light.image->at(0.5 - 0.5 * place);
+}
+
 std::optional<SeenArea> DirectLights::seenArea(double3 origin, double3 direction, double nearest,
                                                double farthest) const {
     std::optional<SeenArea> seen;
@@ -210,7 +219,7 @@ std::optional<SeenArea> DirectLights::seenArea(double3 origin, double3 direction
         if (!light.isVisible) continue;
         const double distance = distanceTo(light, origin, direction);
         if (distance > nearest && distance < (seen ? seen->distance : farthest))
-            seen = SeenArea{ distance, light.intensity };
+            seen = SeenArea{ distance, light.intensity * shownBy(light, origin + direction * distance) };
     }
     return seen;
 }

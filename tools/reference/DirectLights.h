@@ -107,6 +107,7 @@ private:
     static void setImage(Light& light, std::vector<LightPicturePtr> const& images, size_t index, float3 direction,
                          float3 up);
     static double3 colorOf(Light const& light, double3 position);
+    static double3 shownBy(Light const& light, double3 at);
     void add(RectLight const& rect, double factor);
     void add(DiscLight const& disc, double factor);
     void add(TubeLight const& tube, double factor);

@@ -120,7 +120,7 @@ struct RectLight {
     float rangeMeters = 0;
     bool isTwoSided = false; ///< also shines against its direction, as bright
     bool castsShadows = true;
-    bool isVisible = false; ///< drawn with its luminance, on the sides that shine
+    bool isVisible = false; ///< drawn with its luminance and image, on the sides that shine
     LightChannels lightChannels = kDefaultLightChannels;
 };
 

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
+#include <vector>
 
 namespace filament_core {
 namespace {
@@ -101,6 +103,52 @@ TEST(VisibleLights, ShineAsIfTheyWereNotDrawn) {
         };
         for (const AreaShadows shadows : { AreaShadows::Center, AreaShadows::Shape })
             EXPECT_EQ(test::differingPixels(imageOf(false, shadows), imageOf(true, shadows)), 0u) << toString(backend);
+    }
+}
+
+/// Quarters: red, green, blue, white, row by row.
+LightImage quarters(Engine& engine) {
+    constexpr uint32_t kSide = 64;
+    std::vector<uint32_t> pixels;
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+        const uint32_t quarter = (i / kSide >= kSide / 2 ? 2u : 0u) + (i % kSide >= kSide / 2 ? 1u : 0u);
+        pixels.push_back(std::array{ 0xff0000ffu, 0xff00ff00u, 0xffff0000u, 0xffffffffu }[quarter]);
+    }
+    const Result<LightImage> image = engine.create(LightImageDesc{ .width = kSide,
+                                                                   .height = kSide,
+                                                                   .pixels = std::as_bytes(std::span(pixels)),
+                                                                   .shape = LightImageShape::Emitted });
+    EXPECT_TRUE(image) << (image ? "" : image.error().message);
+    return image ? *image : LightImage{};
+}
+
+TEST(VisibleLights, ShowTheirImageUprightFromTheFront) {
+    const View view = viewFrom();
+    for (const Backend backend : test::kBothApis) {
+        ShadowStage stage(backend);
+        Scene scene(stage.engine);
+        RectLight rect =
+                drawnLight(RectLight{ .directionWorld = { 0, 0, 1 }, .widthMeters = 1.6f, .heightMeters = 1.6f }, view);
+        const Owned<LightImage> image = stage.engine.own(quarters(stage.engine));
+        rect.image = image;
+        const Light light = scene.add(rect);
+        const auto expectColors = [&](float3 left, float3 right, const char* when) {
+            const Image drawn = test::renderLinear(stage.engine, scene, view);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(test::halfPixel(drawn, 38, 38)[c], 0.5f * left[c], 5e-3f) << when << toString(backend);
+                EXPECT_NEAR(test::halfPixel(drawn, 90, 38)[c], 0.5f * right[c], 5e-3f) << when << toString(backend);
+            }
+        };
+        expectColors({ 1, 0, 0 }, { 0, 1, 0 }, "image ");
+        rect.image = {};
+        scene.set(light, rect);
+        expectColors(float3(1), float3(1), "none ");
+        rect.image = image;
+        scene.set(light, rect);
+        expectColors({ 1, 0, 0 }, { 0, 1, 0 }, "again ");
+        scene.remove(light);
+        expectColors(float3(0), float3(0), "removed ");
+        test::expectNoErrors(stage.engine);
     }
 }
 
