@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint32_t kMostPerPass = 64; // samples; more would leave few passes to judge the error by
 constexpr size_t kBatch = 2048;       // texels between two reports
+constexpr double kCover = 0.125;      // texels: a board so near hides the wall behind it from every camera
 
 reference::ReferenceSettings tracerSettings(LightSettings const& settings) {
     return { .maxBounces = settings.maxBounces, .seed = settings.seed };
@@ -71,7 +72,7 @@ TexelLight lightOf(reference::PathTracer const& tracer, double3 origin, SurfaceP
             const reference::Arriving arriving = tracer.arriving(receiver, lamps, { pass, i }, rays);
             sum += arriving.irradiance;
             open += arriving.fromSky;
-            backs += arriving.fromBehind;
+            backs += arriving.fromBehind || arriving.meters < point.coverMeters;
         }
         sums.add(sum / double(passes.samples));
     }
@@ -98,7 +99,10 @@ void bakeTexels(reference::TracedScene const& scene, std::span<const BakeSurface
             for (size_t i = begin; i < end; ++i) {
                 AtlasTexel const& texel = texels[first + i];
                 const uint64_t place = (uint64_t(texel.y) << 32) | texel.x;
-                lights[i] = lightOf(tracer, scene.origin(), pointOf(surfaces[atlas.charts[texel.chart].surface], texel),
+                AtlasChart const& chart = atlas.charts[texel.chart];
+                SurfacePoint point = pointOf(surfaces[chart.surface], texel);
+                point.coverMeters = kCover / (atlas.texelsPerMeter * chart.scale);
+                lights[i] = lightOf(tracer, scene.origin(), point,
                                     reference::hashOf(reference::mixBits(settings.seed), place), settings);
             }
         });

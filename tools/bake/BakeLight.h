@@ -37,7 +37,7 @@ struct TexelLight {
     double3 irradiance{ 0.0 };    ///< lux
     double3 standardError{ 0.0 }; ///< lux, of the mean; widened so that two of them hold for 95.4 % of texels
     double openness = 0;          ///< cosine-weighted part of the hemisphere in which the sky is seen, [0, 1]
-    double backs = 0;             ///< part of the directions in which backs of surfaces are seen, [0, 1]
+    double backs = 0; ///< part of the directions in which backs of surfaces are seen, or what covers it: [0, 1]
     uint32_t samples = 0;
     uint32_t rays = 0;
 };

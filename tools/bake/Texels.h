@@ -32,6 +32,7 @@ struct SurfacePoint {
     double3 position{ 0.0 };
     double3 normal{ 0, 0, 1 }, faceNormal{ 0, 0, 1 }; ///< unit, on the same side
     double longestEdge = 0;                           ///< metres, of its triangle
+    double coverMeters = 0;                           ///< what is nearer covers the point: a poster on a wall
 };
 
 SurfacePoint pointOf(BakeSurface const& surface, AtlasTexel const& texel);

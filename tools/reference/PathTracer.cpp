@@ -110,6 +110,7 @@ Arriving PathTracer::arriving(ReceivingPoint const& point, LampLight lamps, Samp
             Part const& part = mScene.part(path.hit);
             const bool isBack = glm::dot(faceNormal(part, path.hit.point.triangle), path.ray.direction) > 0;
             arriving.fromBehind = isBack && !part.material->doubleSided && !first->transmits();
+            if (!first->transmits()) arriving.meters = path.hit.distance;
         }
         sum += follow(path, first);
     }

@@ -22,6 +22,8 @@
 #include "tools/reference/SampleStream.h"
 #include "tools/reference/TracedScene.h"
 
+#include <limits>
+
 namespace filament_core::reference {
 
 /// A point whose irradiance is wanted; positions are relative to the scene's origin.
@@ -37,6 +39,7 @@ struct Arriving {
     double3 irradiance{ 0.0 }; ///< lux times exposure; its mean over many paths is that of the surface
     bool fromSky = false;      ///< the path left without meeting a surface
     bool fromBehind = false;   ///< it first met the back of a single-sided surface, as from inside of a wall
+    double meters = std::numeric_limits<double>::infinity(); ///< to the first surface that it met
 };
 
 /// Which light counts that arrives straight from lamps: suns, points, spots and areas.
