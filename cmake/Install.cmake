@@ -70,6 +70,7 @@ filament_pkgconfig(development filament_core_static DESCRIPTION "${PROJECT_DESCR
     REQUIRES "${static_requires}" LIBS "${static_libs}")
 if(BUILD_SHARED_LIBS)
     filament_pkgconfig(development filament_core DESCRIPTION "${PROJECT_DESCRIPTION}" REQUIRES glm LIBS -lfilament_core)
+    filament_pkgconfig(development filament_core_c DESCRIPTION "${PROJECT_DESCRIPTION} (C interface)" LIBS -lfilament_core_c)
 else()
     filament_pkgconfig(development filament_core DESCRIPTION "${PROJECT_DESCRIPTION}" REQUIRES filament_core_static LIBS "")
 endif()

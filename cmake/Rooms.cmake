@@ -8,7 +8,7 @@ set(FILAMENT_PUBLIC_INCLUDES ${CMAKE_SOURCE_DIR}/base/include ${CMAKE_SOURCE_DIR
 
 add_library(filament_options INTERFACE)
 target_compile_options(filament_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
     -Wno-missing-field-initializers # descriptions name the fields that they set; the others have defaults
     -ffp-contract=off # the same bits from every compiler
     # gcc 12 sees a temporary's members as uninitialized where a constructor may throw (GCC bug 105562 and similar ones)
@@ -70,7 +70,7 @@ if(FILAMENT_UNITY)
     # gcc takes a file of a batch for a header, whose classes must not have members of local types. It compiles a batch in a
     # tenth less time if it looks for unused memory from 1 GiB on instead of from 128 MiB.
     target_compile_options(filament_options INTERFACE
-        $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
+        $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
 endif()
 
 # Batches of sixteen save a quarter, where there are enough of them for every core: LARGE, for rooms and test programs.

@@ -65,7 +65,7 @@ ROOMS = {
 
 # Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it
 # mirrors.
-USERS = ["toolkit", "tools", "python", "tests", "bench"]
+USERS = ["toolkit", "tools", "python", "c_interface", "tests", "bench"]
 
 # What programs share, bottom up; folder: the ones of this table that it may include, besides itself.
 TOOLKIT = {
@@ -94,7 +94,8 @@ BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 PUBLIC = ["base/include/filament_core", "shaders/package/include/filament_core", "filament_core/include/filament_core"]
 # Public headers whose objects are the engine's; the rest are value types.
 PUBLIC_ENGINE = ["filament_core.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
-PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "toolkit", "tools", "python", "samples", "tests", "bench"]
+PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "toolkit", "tools", "python", "c_interface", "samples", "tests",
+                       "bench"]
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
 
@@ -271,7 +272,7 @@ def table():
     lines.append(f"{'':{width}}  any room, a backend only through backend/create; all of the toolkit; no other program")
     lines.append(f"{'python bench':{width}}: as programs")
     lines.append(f"{'tests':{width}}: as programs, and any program; also the folder that it mirrors")
-    lines.append(f"{'samples':{width}}: the public headers")
+    lines.append(f"{'samples c_interface':{width}}: the public headers")
     return "\n".join(lines) + "\n"
 
 
