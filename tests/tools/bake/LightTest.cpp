@@ -239,6 +239,29 @@ TEST(BakeLight, InsideOfABoxIsFilledFromOutside) {
     }
 }
 
+// A poster a millimetre over the floor, seen from both sides: the floor below it is as bright as beside it.
+TEST(BakeLight, WhatAThinBoardCoversIsFilledFromBeside) {
+    const BakeSurface floor = floorSurface(2, { 0, -1, 0 });
+    const float3 up(0, 1, 0), side(1, 0, 0);
+    const reference::TestVertex corners[4] = { { { -0.5f, -0.999f, 0.5f }, up, side, {} },
+                                               { { 0.5f, -0.999f, 0.5f }, up, side, {} },
+                                               { { 0.5f, -0.999f, -0.5f }, up, side, {} },
+                                               { { -0.5f, -0.999f, -0.5f }, up, side, {} } };
+    const uint32_t triangles[6] = { 0, 1, 2, 0, 2, 3 };
+    assets::PrimitiveData poster = reference::makePrimitive(corners, triangles);
+    assets::MaterialData paper = pureLambert(0.5f);
+    paper.doubleSided = true;
+    ReferenceScene scene{ .models = { { reference::makeModel(std::move(poster), paper) } } };
+    scene.environment = reference::uniformSky(1);
+    const Baked baked = bake(scene, floor, 4, plain(64));
+    const LightmapImage image = makeImage(baked.atlas, baked.texels, baked.lights);
+    EXPECT_NEAR(double(image.hidden), 16, 4);
+    for (size_t i = 0; i < baked.texels.size(); ++i) {
+        const double4 texel = image.texels[size_t(baked.texels[i].y) * image.side + baked.texels[i].x];
+        EXPECT_GT(texel.x, 2.5) << baked.texels[i].x << ", " << baked.texels[i].y;
+    }
+}
+
 // The brightest texel lies between 2^13 and 2^14 of the intensity, whatever its lux: 1e-6 as well as 1e6.
 TEST(LightmapImage, KeepsTenBitsOfDimAndOfBrightLight) {
     jobs::JobSystem jobs({ .workers = 0 });
