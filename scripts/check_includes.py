@@ -36,6 +36,7 @@ ROOMS = {
     "filament_core/scene": ["base", "base/math", "backend/api", "shaders/interface", "shaders/package",
                             "filament_core/include"],
     "filament_core/assets/files": ["base"],
+    "filament_core/scenefile": ["base", "base/math", "filament_core/include", "filament_core/assets/files"],
     "filament_core/assets/blocks": ["base", "base/math"],
     "filament_core/assets/image": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
                                    "filament_core/assets/files", "filament_core/assets/blocks"],
@@ -61,6 +62,7 @@ ROOMS = {
                              "filament_core/assets/environment", "filament_core/assets/tables",
                              "filament_core/assets/geometry", "filament_core/assets/gltf", "filament_core/prepare",
                              "filament_core/passes"],
+    "filament_core/scenebuild": ["base", "base/math", "filament_core/include", "filament_core/assets/files"],
 }
 
 # Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it
@@ -93,9 +95,10 @@ BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 # A public header lies in the lowest room that uses it; users see one folder, <filament_core/...>.
 PUBLIC = ["base/include/filament_core", "shaders/package/include/filament_core", "filament_core/include/filament_core"]
 # Public headers whose objects are the engine's; the rest are value types.
-PUBLIC_ENGINE = ["filament_core.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
-PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "toolkit", "tools", "python", "c_interface", "samples", "tests",
-                       "bench"]
+PUBLIC_ENGINE = ["filament_core.h", "Animator.h", "BuildScene.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h",
+                 "Renderer.h", "Scene.h"]
+PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "filament_core/scenebuild", "toolkit", "tools", "python",
+                       "c_interface", "samples", "tests", "bench"]
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
 
@@ -110,7 +113,7 @@ LIBRARIES = {
     r"stb_?image|stb/|png\.h|jpeglib\.h|webp/|avif/": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zlib\.h": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zstd(_errors)?\.h": ["shaders/package", "filament_core/assets/image"],
-    r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "toolkit", "tools",
+    r"nlohmann/": ["filament_core/assets/files", "filament_core/scenefile", "filament_core/assets/gltf", "filament_core/assets/tables", "toolkit", "tools",
                    "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "toolkit"],

@@ -1,96 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JsonReader: reads one JSON object strictly, field by field: an unknown key is an error that names the nearest known
-/// one.
-///   Use     reader.read("size", spec.size); ... return reader.finish();  An absent field does not change the value.
-///   Fails   the first error is kept: "helmet.json: camera.fov: expected a number".
-///   Thread  one.
+/// The strict reader of scene files, for the files of the programs.
 #pragma once
 
-#include "base/Result.h"
-
-#include <filament_core/Math.h>
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "filament_core/scenefile/JsonReader.h"
 
 namespace filament_core::tools {
 
-using Json = nlohmann::ordered_json;
-
-class JsonReader {
-public:
-    /// Every message begins with `where`.
-    JsonReader(Json const& object, std::string where);
-
-    bool has(const char* key) { return find(key) != nullptr; }
-    void read(const char* key, bool& value);
-    void read(const char* key, std::string& value);
-    void read(const char* key, double& value, double low, double high);
-    void read(const char* key, float& value, double low, double high);
-    void read(const char* key, uint32_t& value, uint32_t low, uint32_t high);
-    void read(const char* key, std::vector<std::string>& values);
-    /// An object of texts, ascending by name.
-    void read(const char* key, std::vector<std::pair<std::string, std::string>>& values);
-    /// `count` numbers from `low` to `high`.
-    void numbers(const char* key, double* values, size_t count, double low, double high);
-    template <int N, class T>
-    void read(const char* key, glm::vec<N, T>& value) {
-        double all[N];
-        for (int i = 0; i < N; ++i) all[i] = static_cast<double>(value[i]);
-        numbers(key, all, N, static_cast<double>(std::numeric_limits<T>::lowest()),
-                static_cast<double>(std::numeric_limits<T>::max()));
-        for (int i = 0; i < N; ++i) value[i] = static_cast<T>(all[i]);
-    }
-    /// An enumerator by name: `fromName(text)` returns an optional.
-    template <class E, class FromName>
-    void choice(const char* key, E& value, const char* cure, FromName const& fromName) {
-        std::string word;
-        read(key, word);
-        if (word.empty()) return;
-        if (const auto known = fromName(word))
-            value = *known;
-        else
-            complain(key, std::string("'") + word + "' is not known; " + cure);
-    }
-    /// A nested object: `fill(JsonReader&)` reads it; its errors become errors of this one.
-    template <class Fill>
-    void object(const char* key, Fill const& fill) {
-        Json const* found = find(key);
-        if (found) nested(*found, mWhere + path(key), fill);
-    }
-    /// A list of objects.
-    template <class Fill>
-    void objects(const char* key, Fill const& fill) {
-        const std::vector<Json const*> elements = list(key);
-        for (size_t i = 0; i < elements.size(); ++i)
-            nested(*elements[i], mWhere + path(key) + "[" + std::to_string(i) + "]", fill);
-    }
-    Json const* raw(const char* key) { return find(key); }
-
-    void complain(const char* key, std::string const& what);
-    Result<void> finish();
-
-private:
-    Json const* find(const char* key);
-    std::vector<Json const*> list(const char* key);
-    static std::string path(const char* key) { return std::string(" ") + key; }
-
-    template <class Fill>
-    void nested(Json const& json, std::string where, Fill const& fill) {
-        JsonReader reader(json, std::move(where));
-        fill(reader);
-        if (const Result<void> done = reader.finish(); !done && !mError) mError = done.error();
-    }
-
-    Json const& mObject;
-    std::string mWhere;
-    std::vector<std::string_view> mKnown;
-    std::optional<Error> mError;
-};
+using scenefile::Json;
+using scenefile::JsonReader;
 
 } // namespace filament_core::tools

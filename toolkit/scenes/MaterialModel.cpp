@@ -10,6 +10,17 @@
 
 namespace filament_core::tools {
 
+namespace {
+
+void applyRaster(Engine& engine, MaterialInstance instance, CopyRaster const& raster) {
+    if (raster.colorWrite) engine.setColorWrite(instance, *raster.colorWrite);
+    if (raster.depthWrite) engine.setDepthWrite(instance, *raster.depthWrite);
+    if (raster.depthCulling) engine.setDepthCulling(instance, *raster.depthCulling);
+    if (raster.stencil) engine.setStencil(instance, raster.stencil);
+}
+
+} // namespace
+
 bool isMaterialModel(SceneSpec const& spec) { return spec.modelObject && spec.modelObject->contains("material"); }
 
 Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec) {

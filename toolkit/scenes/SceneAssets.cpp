@@ -6,17 +6,15 @@
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
+#include "filament_core/scenebuild/SceneFileParts.h"
 #include "toolkit/scenes/BuiltModel.h"
 #include "toolkit/showcase/Showcase.h"
 
-#include <filament_core/LightImage.h>
-#include <filament_core/LightProfile.h>
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 namespace filament_core::tools {
 namespace {
@@ -161,13 +159,7 @@ Result<fs::path> environmentFile(SceneSpec const& spec, SceneFolders const& fold
 
 std::vector<LightDesc> placedLights(SceneSpec const& spec) {
     std::vector<LightDesc> lights = spec.lights;
-    for (LightDesc& light : lights) {
-        std::visit(
-                [&](auto& placed) {
-                    if constexpr (requires { placed.positionWorld; }) placed.positionWorld += spec.origin;
-                },
-                light);
-    }
+    for (LightDesc& light : lights) scenebuild::moveBy(spec.origin, light);
     return lights;
 }
 
@@ -183,54 +175,23 @@ LightImageFile imageFile(SceneSpec const& spec, size_t light, SceneFolders const
 }
 
 Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
-    std::map<fs::path, Owned<LightProfile>> profiles; // lights keep what they need of them
-    std::map<std::pair<fs::path, LightImageShape>, Owned<LightImage>> images;
-    std::vector<LightDesc> lights = placedLights(spec);
+    scenebuild::SceneFileLights added(engine, scene);
+    const std::vector<LightDesc> lights = placedLights(spec);
     for (size_t i = 0; i < lights.size(); ++i) {
-        const fs::path file = profileFile(spec, i, folders);
-        if (!file.empty() && !profiles.contains(file)) {
-            const Result<LightProfile> loaded = loadLightProfile(engine, file);
-            if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
-            profiles[file] = engine.own(*loaded);
-        }
         const LightImageFile image = imageFile(spec, i, folders);
-        const std::pair key(image.file, image.shape);
-        if (!image.file.empty() && !images.contains(key)) {
-            const Result<LightImage> loaded = loadLightImage(engine, image.file, image.shape);
-            if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
-            images[key] = engine.own(*loaded);
-        }
-        const auto setFiles = [&](auto& light) {
-            if constexpr (requires { light.profile; }) {
-                if (!file.empty()) light.profile = profiles[file];
-            }
-            if constexpr (requires { light.cookie; }) {
-                if (!image.file.empty()) light.cookie = images[key];
-            }
-            if constexpr (requires { light.image; }) {
-                if (!image.file.empty()) light.image = images[key];
-            }
-        };
-        std::visit(setFiles, lights[i]);
-        scene.add(lights[i]);
+        const Result<void> done = added.add(lights[i], profileFile(spec, i, folders), image.file, image.shape);
+        if (!done) return fail(done.error().code, "{}: {}", spec.name, done.error().message);
     }
     return {};
 }
 
 Result<void> addGrids(Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
     for (GridSpec const& grid : spec.grids) {
-        IrradianceGridDesc desc = grid.grid;
-        if (!grid.file.empty()) {
-            const fs::path path = resolve(grid.file, spec, folders.assets);
-            const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
-            if (!bytes) return bytes.error();
-            Result<IrradianceGridDesc> read = readIrradianceGrid(*bytes);
-            if (!read) return fail(read.error().code, "{}: {}", path.string(), read.error().message);
-            desc = std::move(*read);
-            desc.intensity *= grid.grid.intensity;
-        }
-        desc.centerWorld += spec.origin;
-        scene.add(desc);
+        const fs::path file = grid.file.empty() ? fs::path() : resolve(grid.file, spec, folders.assets);
+        Result<IrradianceGridDesc> desc = scenebuild::readSceneGrid(grid, file);
+        if (!desc) return desc.error();
+        desc->centerWorld += spec.origin;
+        scene.add(*desc);
     }
     return {};
 }
@@ -241,19 +202,9 @@ std::vector<double4x4> placedCopies(SceneSpec const& spec) {
     return copies;
 }
 
-// The default: from the front, slightly from the right and above, with the whole model in view.
 Camera cameraOf(SceneSpec const& spec, Box const& bounds) {
-    double3 eye, at;
-    if (spec.eye) {
-        eye = *spec.eye + spec.origin;
-        at = spec.at + spec.origin;
-    } else {
-        at = (bounds.min + bounds.max) * 0.5;
-        const double radius = std::max(1e-3, glm::length(bounds.max - bounds.min) * 0.5);
-        const double halfFov = glm::radians(static_cast<double>(spec.lens.verticalFovDegrees)) * 0.5;
-        eye = at + glm::normalize(double3(0.45, 0.35, 1.0)) * (0.8 * radius / elementary::sin(halfFov));
-    }
-    return Camera::lookAt(eye, at, spec.lens, spec.exposure);
+    return scenebuild::cameraOf({ .eye = spec.eye, .at = spec.at, .lens = spec.lens }, spec.origin, spec.exposure,
+                                bounds);
 }
 
 } // namespace filament_core::tools

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneFile: one .json of tests/conformance/scenes as values: the objects, the light, the camera, the post-processing,
-/// and how two images of it are compared. docs/conformance.md describes the fields.
-///   Features  a scene's "features" are named changes of the same file (RFC 7396 merge patches). Each is a separate
-///             case: "spheres/msaa" beside "spheres".
-///   Fails     InvalidArgument, Unreadable: file, field, what is valid.
+/// SceneSpec: one case of a scene file (<filament_core/SceneFile.h>) for the programs that compare images of scenes.
+///   Features  a scene's "features" are named changes of the same file. Each is a separate case: "spheres/msaa" beside
+///             "spheres".
+///   Fails     as SceneFile; InvalidArgument: a scene without a model, or with several.
 ///   Thread    any; pure except for reading files.
 #pragma once
 
 #include "toolkit/json/JsonReader.h"
-#include "toolkit/scenes/SceneGrids.h"
-#include "toolkit/scenes/SceneLights.h"
-#include "toolkit/scenes/SceneProbes.h"
-#include "toolkit/scenes/SceneRaster.h"
 
 #include <filament_core/Camera.h>
 #include <filament_core/DebugDraw.h>
@@ -19,6 +14,7 @@
 #include <filament_core/Gltf.h>
 #include <filament_core/Light.h>
 #include <filament_core/Scene.h>
+#include <filament_core/SceneFile.h>
 #include <filament_core/SkyDesc.h>
 #include <filament_core/View.h>
 
@@ -30,13 +26,17 @@
 
 namespace filament_core::tools {
 
-enum class ComparatorKind : uint8_t { Bits, Tolerance, Flip };
+using ComparatorKind = ImageComparator;
+using Comparator = SceneFileComparison;
+using ProbeSpec = SceneFileProbe;
+using GridSpec = SceneFileGrid;
+using CopyRaster = SceneFileRaster;
 
-/// How closely two images of a case must agree.
-struct Comparator {
-    ComparatorKind kind = ComparatorKind::Bits;
-    uint32_t tolerance = 2;                ///< Tolerance: in 1/255, every component of every pixel
-    double flipMean = 0.01, flipP99 = 0.1; ///< Flip: upper bounds, [0, 1]
+/// The image of a light.
+struct LightImageFile {
+    std::filesystem::path file{}; ///< as the scene names it; empty: none
+    LightImageShape shape = LightImageShape::Projected;
+    friend bool operator==(LightImageFile const&, LightImageFile const&) = default;
 };
 
 /// Values by name, as words: "0.5", "1,0,0.2".
@@ -90,6 +90,9 @@ struct SceneSpec {
     Comparator comparator{};
     std::vector<std::string> kills; ///< mutations that this case must detect
 };
+
+/// A scene as a case. Files of looks are read.
+Result<SceneSpec> specOf(SceneFile const& file);
 
 /// The cases of one file: the scene itself, then its features in order.
 Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file);

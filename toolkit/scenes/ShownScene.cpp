@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/scenes/ShownScene.h"
 
+#include "filament_core/scenebuild/SceneFileParts.h"
+
 #include <filament_core/Options.h>
 #include <filament_core/Sky.h>
 
@@ -17,6 +19,13 @@ std::string keyOf(T const& options) {
     std::string key;
     for (Option const& option : optionsOf<T>()) key += optionValue(option, &options) + ' ';
     return key;
+}
+
+Result<std::shared_ptr<Environment>> captured(Engine& engine, Scene const& scene, ReflectionProbeDesc& place,
+                                              View const& view, EnvironmentLoadOptions const& options) {
+    Result<Environment> light = scenebuild::captureSceneProbe(engine, scene, place, view, options);
+    if (!light) return light.error();
+    return std::make_shared<Environment>(std::move(*light));
 }
 
 } // namespace
@@ -102,7 +111,7 @@ Result<void> SceneLoader::addProbes(ShownScene& shown, SceneSpec const& spec, En
         const Result<std::filesystem::path> path = environmentFile(named, mFolders);
         if (!path) return path.error();
         Result<std::shared_ptr<Environment>> light =
-                path->empty() ? capturedLight(mEngine, shown.scene, probe, view, options)
+                path->empty() ? captured(mEngine, shown.scene, probe.place, view, options)
                               : load(mEnvironments, *path, options, [](auto&... a) { return loadEnvironment(a...); });
         if (!light) return light.error();
         shown.probes.push_back(std::move(*light));

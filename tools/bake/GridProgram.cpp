@@ -3,10 +3,10 @@
 
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/scenefile/BoxFields.h"
 #include "toolkit/json/JsonFile.h"
 #include "toolkit/json/JsonReader.h"
 #include "toolkit/program/Console.h"
-#include "toolkit/scenes/BoxFields.h"
 #include "tools/bake/BakeScene.h"
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace filament_core::bake {
 namespace {
 
 void readNamedBox(tools::JsonReader& reader, IrradianceGridDesc& box) {
-    tools::readBox(reader, box);
+    scenefile::readBox(reader, box);
     reader.read("name", box.name);
     const bool isName = !box.name.empty() && box.name.size() <= 64 && std::ranges::all_of(box.name, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';

@@ -6,17 +6,22 @@
 #include "toolkit/program/Program.h"
 #include "tools/tables/Tables.h"
 
+#include <filament_core/SceneFile.h>
+
 #include <cstdio>
 
 namespace filament_core::tools {
 namespace {
+
+/// The JSON schema of scene files is one as a whole.
+constexpr std::string_view kSchema = "scene-file.schema.json";
 
 /// True: the file has the current tables.
 Result<bool> update(std::string const& path, std::vector<NamedTable> const& tables, bool writes) {
     constexpr size_t kLargest = 16 << 20; // bytes
     const Result<std::string> text = assets::readText(path, kLargest);
     if (!text) return text.error();
-    const Result<std::string> current = withTables(*text, tables, path);
+    const Result<std::string> current = path.ends_with(kSchema) ? SceneFile::schema() : withTables(*text, tables, path);
     if (!current) return current.error();
     if (*current == *text) return true;
     if (!writes) return false;

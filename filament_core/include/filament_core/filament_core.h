@@ -6,6 +6,7 @@
 #include <filament_core/Aov.h>
 #include <filament_core/Backend.h>
 #include <filament_core/Box.h>
+#include <filament_core/BuildScene.h>
 #include <filament_core/BuiltInMaterials.h>
 #include <filament_core/Camera.h>
 #include <filament_core/Color.h>
@@ -50,6 +51,7 @@
 #include <filament_core/ResolutionController.h>
 #include <filament_core/Result.h>
 #include <filament_core/Scene.h>
+#include <filament_core/SceneFile.h>
 #include <filament_core/Sky.h>
 #include <filament_core/SkyDesc.h>
 #include <filament_core/Splats.h>

@@ -160,8 +160,8 @@ TEST(SceneFiles, SayWhichValuesTheEngineCannotTake) {
     expect(R"("copies": [ { "stencil": { "test": "below" } } ])", "greaterEqual");
     expect(R"("copies": [ { "stencil": { "reference": 256 } } ])", "255");
     expect(R"("copies": [ { "values": { "roughness": 0.5 } } ])", "copies[0]: values: 'roughness': expected a text");
-    expect(R"("view": { "size": [ -1, 4 ] })", "view: size: expected 2 numbers from 0 to 4294967295");
-    expect(R"("origin": [ 1e999, 0, 0 ])", "out_of_range");
+    expect(R"("view": { "size": [ -1, 4 ] })", "view: size: expected 2 numbers from 1 to 4096");
+    expect(R"("origin": [ 1e999, 0, 0 ])", "out of range");
     expect(R"("suns": [ { "direction": [ 1.8e19, 1.8e19, 0 ] } ])", "was read");
 }
 

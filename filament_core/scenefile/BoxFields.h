@@ -5,13 +5,13 @@
 ///   Fails   as JsonReader; sides that are not in (0, 2e9] m.
 #pragma once
 
-#include "toolkit/json/JsonReader.h"
+#include "filament_core/scenefile/JsonReader.h"
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 
 /// Box: ReflectionProbeDesc or IrradianceGridDesc.
 template <class Box>
@@ -31,4 +31,4 @@ void readBox(JsonReader& reader, Box& box) {
         reader.complain("halfExtent", "expected three numbers of (0, 1e9]");
 }
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "toolkit/json/JsonReader.h"
+#include "filament_core/scenefile/JsonReader.h"
 
 #include "base/AsciiText.h"
 #include "base/Suggest.h"
@@ -9,10 +9,38 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 
 JsonReader::JsonReader(Json const& object, std::string where) : mObject(object), mWhere(std::move(where)) {
     if (!object.is_object()) mError = fail(ErrorCode::InvalidArgument, "{}: expected an object", mWhere);
+}
+
+Json JsonReader::describe(std::function<void(JsonReader&)> const& fill) {
+    const Json nothing = Json::object();
+    Json properties = Json::object();
+    JsonReader reader(nothing, "");
+    reader.mSchema = &properties;
+    fill(reader);
+    return { { "type", "object" }, { "additionalProperties", false }, { "properties", std::move(properties) } };
+}
+
+void JsonReader::add(const char* key, Json schema) { (*mSchema)[key] = std::move(schema); }
+
+void JsonReader::addList(const char* key, Json elements) {
+    add(key, { { "type", "array" }, { "items", std::move(elements) } });
+}
+
+void JsonReader::addObject(const char* key, std::function<void(JsonReader&)> const& fill) { add(key, describe(fill)); }
+
+void JsonReader::addObjects(const char* key, std::function<void(JsonReader&)> const& fill) {
+    addList(key, describe(fill));
+}
+
+bool JsonReader::has(const char* key) { return mSchema || find(key) != nullptr; }
+
+Json const* JsonReader::raw(const char* key, std::string_view schema) {
+    if (mSchema) return add(key, Json::parse(schema)), nullptr;
+    return find(key);
 }
 
 Json const* JsonReader::find(const char* key) {
@@ -23,10 +51,11 @@ Json const* JsonReader::find(const char* key) {
 }
 
 void JsonReader::complain(const char* key, std::string const& what) {
-    if (!mError) mError = fail(ErrorCode::InvalidArgument, "{}: {}: {}", mWhere, key, what);
+    if (!mSchema && !mError) mError = fail(ErrorCode::InvalidArgument, "{}: {}: {}", mWhere, key, what);
 }
 
 void JsonReader::read(const char* key, bool& value) {
+    if (mSchema) return add(key, { { "type", "boolean" } });
     Json const* found = find(key);
     if (!found) return;
     if (!found->is_boolean()) return complain(key, "expected true or false");
@@ -34,6 +63,7 @@ void JsonReader::read(const char* key, bool& value) {
 }
 
 void JsonReader::read(const char* key, std::string& value) {
+    if (mSchema) return add(key, { { "type", "string" } });
     Json const* found = find(key);
     if (!found) return;
     if (!found->is_string()) return complain(key, "expected a text");
@@ -41,6 +71,7 @@ void JsonReader::read(const char* key, std::string& value) {
 }
 
 void JsonReader::read(const char* key, double& value, double low, double high) {
+    if (mSchema) return add(key, { { "type", "number" }, { "minimum", low }, { "maximum", high } });
     Json const* found = find(key);
     if (!found) return;
     const double number = found->is_number() ? found->get<double>() : std::nan("");
@@ -56,6 +87,7 @@ void JsonReader::read(const char* key, float& value, double low, double high) {
 }
 
 void JsonReader::read(const char* key, uint32_t& value, uint32_t low, uint32_t high) {
+    if (mSchema) return add(key, { { "type", "integer" }, { "minimum", low }, { "maximum", high } });
     double number = value;
     read(key, number, low, high);
     if (number != std::floor(number)) return complain(key, "expected a whole number");
@@ -63,6 +95,7 @@ void JsonReader::read(const char* key, uint32_t& value, uint32_t low, uint32_t h
 }
 
 void JsonReader::read(const char* key, std::vector<std::string>& values) {
+    if (mSchema) return addList(key, { { "type", "string" } });
     Json const* found = find(key);
     if (!found) return;
     const bool texts =
@@ -72,6 +105,7 @@ void JsonReader::read(const char* key, std::vector<std::string>& values) {
 }
 
 void JsonReader::read(const char* key, std::vector<std::pair<std::string, std::string>>& values) {
+    if (mSchema) return add(key, { { "type", "object" }, { "additionalProperties", { { "type", "string" } } } });
     Json const* found = find(key);
     if (!found) return;
     if (!found->is_object()) return complain(key, "expected an object of texts");
@@ -79,6 +113,17 @@ void JsonReader::read(const char* key, std::vector<std::pair<std::string, std::s
         if (!value.is_string()) return complain(key, fmt::format("'{}': expected a text", printable(name)));
         values.emplace_back(name, value.get<std::string>());
     }
+}
+
+std::optional<size_t> JsonReader::choice(const char* key, std::span<const std::string_view> words) {
+    if (mSchema) return add(key, { { "enum", std::vector<std::string>(words.begin(), words.end()) } }), std::nullopt;
+    std::string word;
+    read(key, word);
+    if (word.empty()) return std::nullopt;
+    const auto found = std::ranges::find(words, word);
+    if (found != words.end()) return found - words.begin();
+    complain(key, fmt::format("'{}' is not known; {}", printable(word), listed(words)));
+    return std::nullopt;
 }
 
 std::vector<Json const*> JsonReader::list(const char* key) {
@@ -94,6 +139,10 @@ std::vector<Json const*> JsonReader::list(const char* key) {
 }
 
 void JsonReader::numbers(const char* key, double* values, size_t count, double low, double high) {
+    if (mSchema) {
+        const Json number{ { "type", "number" }, { "minimum", low }, { "maximum", high } };
+        return add(key, { { "type", "array" }, { "items", number }, { "minItems", count }, { "maxItems", count } });
+    }
     Json const* found = find(key);
     if (!found) return;
     const bool fits = found->is_array() && found->size() == count &&
@@ -116,4 +165,4 @@ Result<void> JsonReader::finish() {
     return {};
 }
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

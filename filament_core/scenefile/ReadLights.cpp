@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "toolkit/scenes/SceneLights.h"
+#include "filament_core/scenefile/ReadLights.h"
 
 #include <filament_core/Options.h>
 #include <filament_core/Photometry.h>
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 namespace {
 
 constexpr double kFarthestRange = 1e12, kBrightestLight = 1e9;
@@ -87,22 +87,19 @@ void readPlace(JsonReader& reader, L& light) {
     readShared(reader, light);
 }
 
-void readCookie(JsonReader& reader, LightImageFile& image, LightImageShape shape) {
-    std::string file;
-    reader.read("cookie", file);
-    image = { file, shape };
+void readCookie(JsonReader& reader, SceneFileLight& files, LightImageShape shape) {
+    reader.read("cookie", files.image);
+    files.imageShape = shape;
 }
 
 /// Returns whether the light has a profile or a cookie.
 template <class L>
-bool readProfile(JsonReader& reader, L& light, std::string& profile, LightImageFile& image, LightImageShape shape) {
-    reader.read("profile", profile);
-    readCookie(reader, image, shape);
-    const bool isTurned = !profile.empty() || !image.file.empty();
-    if (isTurned)
-        reader.read("up", light.upWorld);
-    else if (reader.has("up"))
-        reader.complain("up", "belongs to 'profile' or 'cookie'");
+bool readProfile(JsonReader& reader, L& light, SceneFileLight& files, LightImageShape shape) {
+    reader.read("profile", files.profile);
+    readCookie(reader, files, shape);
+    const bool isTurned = !files.profile.empty() || !files.image.empty();
+    if (!isTurned && reader.has("up")) reader.complain("up", "belongs to 'profile' or 'cookie'");
+    reader.read("up", light.upWorld);
     return isTurned;
 }
 
@@ -122,7 +119,8 @@ void readArea(JsonReader& reader, AreaLight& light) {
 } // namespace
 
 void readBits(JsonReader& reader, const char* name, uint8_t& bits) {
-    Json const* list = reader.raw(name);
+    Json const* list =
+            reader.raw(name, R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 7}})");
     if (!list) return;
     const auto isBit = [](Json const& j) { return j.is_number_unsigned() && j.get<uint64_t>() < 8; };
     if (!list->is_array() || !std::all_of(list->begin(), list->end(), isBit))
@@ -133,7 +131,7 @@ void readBits(JsonReader& reader, const char* name, uint8_t& bits) {
 
 void readLightChannels(JsonReader& reader, LightChannels& channels) { readBits(reader, "channels", channels); }
 
-SunLight readSun(JsonReader& reader, LightImageFile& image) {
+void readSun(JsonReader& reader, SceneFileLight& read) {
     SunLight sun;
     readDirection(reader, sun.directionWorld);
     reader.read("lux", sun.illuminance.value, 0, kBrightestLight);
@@ -144,38 +142,41 @@ SunLight readSun(JsonReader& reader, LightImageFile& image) {
         reader.read(name, *value, option.least, option.most);
     }
     reader.read("showsDisc", sun.showsDisc);
-    readCookie(reader, image, LightImageShape::Tiled);
-    if (!image.file.empty()) {
-        reader.read("up", sun.upWorld);
-        reader.read("cookieMeters", sun.cookieMeters, 1e-3, 1e9);
-        reader.read("cookieOffset", sun.cookieOffsetMeters);
-    }
+    readCookie(reader, read, LightImageShape::Tiled);
+    for (const char* key : { "up", "cookieMeters", "cookieOffset" })
+        if (read.image.empty() && reader.has(key)) reader.complain(key, "belongs to 'cookie'");
+    reader.read("up", sun.upWorld);
+    reader.read("cookieMeters", sun.cookieMeters, 1e-3, 1e9);
+    reader.read("cookieOffset", sun.cookieOffsetMeters);
     readShared(reader, sun);
-    return sun;
+    read.light = sun;
 }
 
-PointLight readPoint(JsonReader& reader, std::string& profile, LightImageFile& image) {
+void readPoint(JsonReader& reader, SceneFileLight& read) {
     PointLight light;
     readPlace(reader, light);
-    if (readProfile(reader, light, profile, image, LightImageShape::Octahedron))
+    const bool isTurned = readProfile(reader, light, read, LightImageShape::Octahedron);
+    if (isTurned || reader.isDescribing())
         readDirection(reader, light.directionWorld);
     else if (reader.has("direction"))
         reader.complain("direction", "belongs to 'profile' or 'cookie'");
     bool isCube = false;
     reader.read("cookieIsCube", isCube);
-    if (isCube) image.shape = LightImageShape::Cube;
+    if (isCube) read.imageShape = LightImageShape::Cube;
     readIntensity(reader, light.intensity, pointIntensity);
-    return light;
+    read.light = light;
 }
 
-SpotLight readSpot(JsonReader& reader, std::string& profile, LightImageFile& image) {
+void readSpot(JsonReader& reader, SceneFileLight& read) {
     SpotLight light;
     readPlace(reader, light);
     readDirection(reader, light.directionWorld);
-    readProfile(reader, light, profile, image, LightImageShape::Projected);
+    readProfile(reader, light, read, LightImageShape::Projected);
     double inner = 20, outer = 35;
     reader.read("innerDegrees", inner, 0, 89);
-    reader.read("outerDegrees", outer, inner + 0.1, 90);
+    reader.read("outerDegrees", outer, 0.1, 90);
+    if (reader.has("outerDegrees") && outer < inner + 0.1)
+        reader.complain("outerDegrees", fmt::format("expected a number from {} to 90", inner + 0.1));
     if (!(outer > inner)) {
         reader.complain("innerDegrees", fmt::format("expected less than the {} of outerDegrees", outer));
         inner = 0;
@@ -190,36 +191,35 @@ SpotLight readSpot(JsonReader& reader, std::string& profile, LightImageFile& ima
     });
     if (isFocused && !reader.has("lumens") && !reader.has("watts"))
         reader.complain("focused", "belongs to 'lumens' or 'watts'");
-    return light;
+    read.light = light;
 }
 
-RectLight readRect(JsonReader& reader, LightImageFile& image) {
+void readRect(JsonReader& reader, SceneFileLight& read) {
     RectLight light;
-    std::string file;
-    reader.read("image", file);
-    image = { file, LightImageShape::Emitted };
+    reader.read("image", read.image);
+    read.imageShape = LightImageShape::Emitted;
     readArea(reader, light);
     reader.read("up", light.upWorld);
     reader.read("width", light.widthMeters, 0, kFarthestRange);
     reader.read("height", light.heightMeters, 0, kFarthestRange);
-    return light;
+    read.light = light;
 }
 
-DiscLight readDisc(JsonReader& reader) {
+void readDisc(JsonReader& reader, SceneFileLight& read) {
     DiscLight light;
     readArea(reader, light);
     reader.read("radius", light.radiusMeters, 0, kFarthestRange);
-    return light;
+    read.light = light;
 }
 
-TubeLight readTube(JsonReader& reader) {
+void readTube(JsonReader& reader, SceneFileLight& read) {
     TubeLight light;
     readArea(reader, light);
     reader.read("axis", light.axisWorld);
     if (light.axisWorld == float3(0.0f)) reader.complain("axis", "expected one that is not zero");
     reader.read("length", light.lengthMeters, 0, kFarthestRange);
     reader.read("radius", light.radiusMeters, 0, kFarthestRange);
-    return light;
+    read.light = light;
 }
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

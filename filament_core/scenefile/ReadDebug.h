@@ -4,12 +4,12 @@
 /// in pixels. Each has color, and width or pixels; "through": true shows it through surfaces.
 #pragma once
 
-#include "toolkit/json/JsonReader.h"
+#include "filament_core/scenefile/JsonReader.h"
 
 #include <filament_core/DebugDraw.h>
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 
 void readDebugDraw(JsonReader& reader, DebugDraw& draw);
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

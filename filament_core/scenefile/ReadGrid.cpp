@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "toolkit/scenes/SceneGrids.h"
+#include "filament_core/scenefile/ReadGrid.h"
 
-#include "toolkit/scenes/BoxFields.h"
+#include "filament_core/scenefile/BoxFields.h"
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 namespace {
 
 constexpr uint32_t kMostOfAxis = 64;
@@ -50,13 +50,13 @@ void readProbes(JsonReader& reader, IrradianceGridDesc& grid) {
 
 } // namespace
 
-void readGrid(JsonReader& reader, GridSpec& grid) {
+void readGrid(JsonReader& reader, SceneFileGrid& grid) {
     IrradianceGridDesc& desc = grid.grid;
     readBox(reader, desc);
     reader.read("intensity", desc.intensity, 0, 1e9);
     reader.read("name", desc.name);
     reader.read("file", grid.file);
-    if (grid.file.empty()) readProbes(reader, desc);
+    if (grid.file.empty()) readProbes(reader, desc); // describes them, too
 }
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "toolkit/scenes/SceneDebug.h"
+#include "filament_core/scenefile/ReadDebug.h"
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament_core::tools {
+namespace filament_core::scenefile {
 namespace {
 
 constexpr double kFarthestDrawn = 1e6;
@@ -102,4 +102,4 @@ void readDebugDraw(JsonReader& reader, DebugDraw& draw) {
     reader.objects("texts", [&](JsonReader& r) { readText(r, draw); });
 }
 
-} // namespace filament_core::tools
+} // namespace filament_core::scenefile

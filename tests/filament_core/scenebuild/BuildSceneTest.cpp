@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene files through the public API draw what the loader of the conformance tests draws, to the bit, also after they
+// were saved.
+#include "toolkit/paths/Paths.h"
+#include "toolkit/scenes/SceneAssets.h"
+#include "toolkit/scenes/ShownScene.h"
+
+#include <filament_core/BuildScene.h>
+#include <filament_core/Renderer.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace filament_core {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BuildSceneTest : testing::Test {
+    fs::path scenes = tools::sourceDir() / "tests/conformance/scenes";
+    tools::SceneFolders folders{ tools::buildDir() / "build-scene", {} };
+
+    static Engine& engine() {
+        static Engine one = Engine::create({ .backend = Backend::Gles }).value();
+        return one;
+    }
+
+    /// Objects and skies that the conformance tests make.
+    SceneBuildOptions builders(SceneFile const& file) const {
+        SceneBuildOptions options;
+        options.find = [this, spec = tools::specOf(file).value()](
+                               SceneFileName const& name) -> Result<std::optional<fs::path>> {
+            tools::SceneSpec named = spec;
+            if (name.kind == SceneFileKind::Environment) named.environment = name.name;
+            if (name.kind != SceneFileKind::Environment && name.kind != SceneFileKind::Object)
+                return std::optional<fs::path>();
+            Result<fs::path> path = name.kind == SceneFileKind::Object ? tools::modelFile(named, folders)
+                                                                       : tools::environmentFile(named, folders);
+            if (!path) return path.error();
+            return std::optional(std::move(*path));
+        };
+        return options;
+    }
+
+    Image drawn(SceneFile const& file) const {
+        Result<BuiltScene> built = buildScene(engine(), file, builders(file));
+        EXPECT_TRUE(built.ok()) << (built ? "" : built.error().message);
+        if (!built) return {};
+        return Renderer(engine()).renderToImage(built->scene, built->view).value();
+    }
+
+    Image drawnByTheLoader(SceneFile const& file) const {
+        const tools::SceneSpec spec = tools::specOf(file).value();
+        tools::SceneLoader loader(engine(), folders, tools::SceneLoader::Keep::Last);
+        const tools::ShownScene shown = loader.show(spec, spec.modelOptions, spec.environmentOptions).value();
+        View view = spec.view;
+        view.camera = tools::cameraOf(spec, shown.scene.bounds());
+        return Renderer(engine()).renderToImage(shown.scene, view).value();
+    }
+};
+
+TEST_F(BuildSceneTest, DrawsWhatTheConformanceTestsDraw) {
+    for (const char* name :
+         { "mask", "spot-lights", "light-profiles", "irradiance-grid", "far-from-origin", "light-channels" }) {
+        Result<SceneFile> file = SceneFile::load(scenes / (std::string(name) + ".json"));
+        ASSERT_TRUE(file.ok()) << file.error().message;
+        const Image image = drawn(*file), expected = drawnByTheLoader(*file);
+        ASSERT_FALSE(image.pixels.empty()) << name;
+        EXPECT_TRUE(image.pixels == expected.pixels) << name;
+        const SceneFile saved = SceneFile::parse(file->text(), name, scenes).value();
+        EXPECT_TRUE(drawn(saved).pixels == expected.pixels) << name << ", saved";
+    }
+}
+
+TEST_F(BuildSceneTest, SaysWhatItCannotBuild) {
+    const auto refusal = [&](const char* text) {
+        const Result<BuiltScene> built = buildScene(engine(), SceneFile::parse(text, "kitchen").value());
+        return built ? "was built" : built.error().message;
+    };
+    EXPECT_NE(refusal(R"({"model": "none.glb"})").find("kitchen: no file 'none.glb'"), std::string::npos)
+            << refusal(R"({"model": "none.glb"})");
+    EXPECT_NE(refusal(R"({"model": "asset:a.glb"})").find("there is no folder of assets"), std::string::npos);
+    EXPECT_NE(refusal(R"({"model": {"objects": []}})").find("an object needs a program that builds it"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"environment": {"file": "none.hdr"}})").find("none.hdr"), std::string::npos);
+    EXPECT_EQ(refusal("{}"), "was built");
+}
+
+TEST_F(BuildSceneTest, AnEditShows) {
+    SceneFile file = SceneFile::load(scenes / "spot-lights.json").value();
+    const Image before = drawn(file);
+    ASSERT_TRUE(file.erase("spots[1]").ok());
+    ASSERT_TRUE(file.add(PointLight{ .positionWorld = { 0, 0, 1 }, .intensity = Candela{ 20'000 } }).ok());
+    Result<BuiltScene> built = buildScene(engine(), file, builders(file));
+    ASSERT_TRUE(built.ok());
+    EXPECT_EQ(built->scene.lightCount(), 2u);
+    EXPECT_FALSE(Renderer(engine()).renderToImage(built->scene, built->view)->pixels == before.pixels);
+}
+
+} // namespace
+} // namespace filament_core
