@@ -79,7 +79,8 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
     if (!file) return file.error();
     if (Result<void> checked = checkShape(*file, name); !checked) return checked.error();
     const uint32_t all = backend::fullMipCount(file->width, file->height);
-    const bool isWhole = file->levels.size() == all;
+    // light keeps the levels of its file, though they may be few
+    const bool isWhole = file->levels.size() == all || depth == TextureDepth::Floats;
     Result<Ktx2Texture> texture = decodeKtx2(
             bytes, name,
             { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole, .keepsBc7 = blocks == TextureBlocks::KeptBc7 });

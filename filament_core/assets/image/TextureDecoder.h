@@ -3,8 +3,8 @@
 ///   In      the bytes of a PNG, JPEG, WebP, AVIF, KTX 2.0 or DDS file; `name` is used in error messages.
 ///   Out     RGBA8; of images with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are
 ///           requested. Blocks of BC7, if they are requested. One level of images; of KTX 2.0 and DDS the levels of
-///           the file if they end with 1 x 1, otherwise its first. A DDS of two channels is a normal map: blue becomes
-///           the third coordinate.
+///           the file if they end with 1 x 1 or if floats are asked for, otherwise its first. A DDS of two channels is
+///           a normal map: blue becomes the third coordinate.
 ///   Thread  any; no shared state.
 ///   Limits, fails  as decodeImage(), decodeKtx2() and decodeDds(). Cubes, arrays, and texels of KTX 2.0 and DDS with
 ///           more than 8 bits are Unsupported.

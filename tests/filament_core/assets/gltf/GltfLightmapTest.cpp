@@ -58,6 +58,22 @@ TEST(GltfLightmap, KeepsTheHalfFloatsOfItsFile) {
     EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
 }
 
+// Others would be means over the borders of charts.
+TEST(GltfLightmap, KeepsTheLevelsOfItsFileThoughTheyAreFew) {
+    TestFile file = litTriangle({ { "lightmapTexture", { { "index", 0 } } } });
+    Image image{ .width = 8, .height = 4, .levels = 2, .format = backend::Format::RGBA16F };
+    image.data.resize(image.levelOffset(2));
+    for (size_t i = 0; i < image.data.size() / 2; ++i) {
+        const uint16_t code = halfFromFloat(i < 8 * 4 * 4 ? 1.0f : 3.0f);
+        std::memcpy(&image.data[i * 2], &code, 2);
+    }
+    file.root["images"] = { { { "bufferView", file.addView(encodeKtx2(image)) }, { "mimeType", "image/ktx2" } } };
+    const ModelData model = loaded(file);
+    Image const& kept = model.images[model.materials[0].light.map.image];
+    EXPECT_EQ(kept.levels, 2u);
+    EXPECT_EQ(kept.data, image.data);
+}
+
 TEST(GltfLightmap, HasTheDefaultsOfItsDescription) {
     const ModelData model = loaded(litTriangle({ { "lightmapTexture", { { "index", 0 } } } }));
     EXPECT_EQ(model.materials[0].light.intensityLux, 1);
