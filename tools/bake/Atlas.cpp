@@ -13,15 +13,18 @@ namespace {
 constexpr double kMostTexels = 1e9; // of a chart's side, before it is rounded to whole texels
 
 std::optional<Packing> pack(std::vector<AtlasChart>& charts, AtlasOptions const& options) {
+    const uint32_t step = 1u << (options.levels - 1); // a texel of the coarsest level
     std::vector<uint2> sizes;
     for (AtlasChart& chart : charts) {
         const double2 texels =
                 glm::min(glm::ceil(chart.chart.size * (options.texelsPerMeter * chart.scale)), kMostTexels);
-        chart.size = uint2(texels) + 2 * kPadding;
+        chart.inner = uint2(texels);
+        chart.padding = paddingOf(options.levels);
+        chart.size = (chart.inner + 2 * chart.padding + (step - 1)) / step * step;
         if (std::max(chart.size.x, chart.size.y) > options.maxSide) return std::nullopt;
         sizes.push_back(chart.size);
     }
-    return packRectangles(sizes, options.maxSide);
+    return packRectangles(sizes, options.maxSide, step);
 }
 
 AtlasSurface newVertices(BakeSurface const& surface, std::span<const AtlasChart> charts, Atlas const& atlas) {
@@ -50,7 +53,7 @@ Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions cons
         for (size_t i = begin; i < end; ++i)
             cut[i] = makeCharts(surfaces[i].positions, surfaces[i].indices, options.charts);
     });
-    Atlas atlas{ .texelsPerMeter = options.texelsPerMeter };
+    Atlas atlas{ .levels = options.levels, .texelsPerMeter = options.texelsPerMeter };
     std::vector<size_t> first;
     double area = 0;
     for (uint32_t i = 0; i < surfaces.size(); ++i) {

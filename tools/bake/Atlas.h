@@ -2,8 +2,9 @@
 /// Atlas: the surfaces of a scene as charts in one square image.
 ///   In      surfaces in world space; texels per metre, and how large the image may become.
 ///   Out     for each surface its vertices anew (those on the border of several charts once for each), with texture
-///           coordinates in [0, 1]^2, row 0 at v = 0. No two charts come closer than 2 * kPadding texels, so that
-///           neither bilinear filtering nor the first coarser mip level mixes them.
+///           coordinates in [0, 1]^2, row 0 at v = 0.
+///   Levels  the box of a chart, with its padding, begins and ends at whole texels of the coarsest level, and has half
+///           such a texel of padding at least: bilinear filtering at any level reads texels of one box alone.
 ///   Fails   InvalidArgument if the charts do not fit: it names the density at which they may.
 ///   Thread  makeAtlas(): any; surfaces are cut in parallel. The same atlas for any number of workers.
 #pragma once
@@ -18,7 +19,11 @@
 
 namespace filament_core::bake {
 
-inline constexpr uint32_t kPadding = 2; ///< texels around each chart
+inline constexpr uint32_t kPadding = 2;    ///< texels around each chart, at least
+inline constexpr uint32_t kMostLevels = 6; ///< padding of 16 texels
+
+/// Texels around each chart, for so many levels.
+constexpr uint32_t paddingOf(uint32_t levels) { return levels < 4 ? kPadding : 1u << (levels - 2); }
 
 /// One primitive at one node.
 struct BakeSurface {
@@ -37,16 +42,19 @@ struct AtlasSurface {
 struct AtlasChart {
     uint32_t surface = 0;
     uint2 place{ 0 }, size{ 0 }; ///< texels, with the padding
-    Chart chart;                 ///< corners in metres
-    double scale = 1;            ///< of its density: times Atlas::texelsPerMeter
+    uint2 inner{ 0 };            ///< texels without it
+    uint32_t padding = kPadding;
+    Chart chart;      ///< corners in metres
+    double scale = 1; ///< of its density: times Atlas::texelsPerMeter
     /// In texels of the image.
     double2 corner(size_t i, double texelsPerMeter) const {
-        return double2(place) + double(kPadding) + chart.corners[i] * (texelsPerMeter * scale);
+        return double2(place) + double(padding) + chart.corners[i] * (texelsPerMeter * scale);
     }
 };
 
 struct Atlas {
-    uint32_t side = 0; ///< texels
+    uint32_t side = 0;   ///< texels; a multiple of those of a texel of the coarsest level
+    uint32_t levels = 1; ///< for which charts are padded
     double texelsPerMeter = 0;
     std::vector<AtlasChart> charts;     ///< of the first surface first
     std::vector<AtlasSurface> surfaces; ///< as many as there were
@@ -55,6 +63,7 @@ struct Atlas {
 struct AtlasOptions {
     double texelsPerMeter = 16;
     uint32_t maxSide = 4096;
+    uint32_t levels = 1; ///< [1, kMostLevels]
     ChartOptions charts{};
     std::vector<double> scales{}; ///< AtlasChart::scale of each chart (Densities.h); empty: 1
 };

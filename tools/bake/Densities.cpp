@@ -50,7 +50,7 @@ struct ScaleStep {
 std::vector<ChartDetail> measureDetail(Atlas const& atlas, std::span<const AtlasTexel> texels,
                                        std::span<const TexelLight> lights) {
     std::vector<ChartDetail> charts(atlas.charts.size());
-    for (size_t i = 0; i < charts.size(); ++i) charts[i].size = double2(atlas.charts[i].size) - 2.0 * kPadding;
+    for (size_t i = 0; i < charts.size(); ++i) charts[i].size = double2(atlas.charts[i].inner);
     std::unordered_map<uint64_t, size_t> at; // texels of surfaces that are seen, by place
     const auto keyOf = [](uint64_t x, uint64_t y) { return y << 32 | x; };
     for (size_t i = 0; i < texels.size(); ++i) {

@@ -69,12 +69,50 @@ private:
     std::vector<bool>& mHas;
 };
 
+/// A level, and how much of the surface each of its texels covers, in texels of level 0.
+struct CoveredLevel {
+    uint32_t width = 0;
+    std::vector<double4> texels;
+    std::vector<uint32_t> covered;
+};
+
+/// The next smaller level: boxes of charts begin and end at whole texels of it.
+CoveredLevel halved(CoveredLevel const& from) {
+    CoveredLevel level{ .width = from.width / 2, .texels = {}, .covered = {} };
+    const size_t height = from.texels.size() / from.width / 2;
+    for (size_t y = 0; y < height; ++y) {
+        for (size_t x = 0; x < level.width; ++x) {
+            const size_t first = 2 * y * from.width + 2 * x;
+            double4 seen(0.0), all(0.0);
+            uint32_t covered = 0;
+            for (const size_t i : { first, first + 1, first + from.width, first + from.width + 1 }) {
+                seen += double(from.covered[i]) * from.texels[i];
+                all += from.texels[i];
+                covered += from.covered[i];
+            }
+            level.texels.push_back(covered > 0 ? seen / double(covered) : all / 4.0);
+            level.covered.push_back(covered);
+        }
+    }
+    return level;
+}
+
+std::vector<std::vector<double4>> smallerLevels(CoveredLevel level, uint32_t count) {
+    std::vector<std::vector<double4>> levels;
+    for (; count > 0; --count) {
+        level = halved(level);
+        levels.push_back(level.texels);
+    }
+    return levels;
+}
+
 } // namespace
 
 LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights) {
     LightmapImage image{ .side = atlas.side };
     image.texels.assign(size_t(atlas.side) * atlas.side, double4(0.0));
     std::vector<bool> has(image.texels.size(), false);
+    std::vector<uint32_t> covered(image.texels.size(), 0);
     double brightest = 0;
     for (size_t i = 0; i < texels.size(); ++i) {
         const bool isHidden = lights[i].backs > kMostBacks;
@@ -83,23 +121,33 @@ LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, 
         const size_t at = size_t(texels[i].y) * atlas.side + texels[i].x;
         image.texels[at] = double4(lights[i].irradiance, lights[i].openness);
         has[at] = true;
+        covered[at] = texels[i].distance == 0 ? 1 : 0;
         brightest = std::max({ brightest, lights[i].irradiance.x, lights[i].irradiance.y, lights[i].irradiance.z });
     }
     Filler filler(image, has);
     for (AtlasChart const& chart : atlas.charts) image.filled += filler.fill(chart);
     if (brightest > 0) image.intensity = std::ldexp(1.0, std::ilogb(brightest) + 1 - kTopExponent);
+    image.smaller = smallerLevels({ image.side, image.texels, std::move(covered) }, atlas.levels - 1);
     return image;
 }
 
 assets::Image halvesOf(LightmapImage const& image) {
-    assets::Image halves{ .width = image.side, .height = image.side, .format = backend::Format::RGBA16F };
-    halves.data.resize(image.texels.size() * 8);
-    for (size_t i = 0; i < image.texels.size(); ++i) {
-        const double4 texel = image.texels[i] / double4(double3(image.intensity), 1.0);
-        uint16_t codes[4];
-        for (int c = 0; c < 4; ++c) codes[c] = halfFromFloat(static_cast<float>(texel[c]));
-        std::memcpy(&halves.data[i * 8], codes, sizeof(codes));
-    }
+    assets::Image halves{ .width = image.side,
+                          .height = image.side,
+                          .levels = static_cast<uint32_t>(image.smaller.size()) + 1,
+                          .format = backend::Format::RGBA16F };
+    halves.data.reserve(halves.levelOffset(halves.levels));
+    const auto add = [&](std::vector<double4> const& texels) {
+        for (double4 const& lux : texels) {
+            const double4 texel = lux / double4(double3(image.intensity), 1.0);
+            uint16_t codes[4];
+            for (int c = 0; c < 4; ++c) codes[c] = halfFromFloat(static_cast<float>(texel[c]));
+            const auto bytes = std::as_bytes(std::span(codes));
+            halves.data.insert(halves.data.end(), bytes.begin(), bytes.end());
+        }
+    };
+    add(image.texels);
+    for (std::vector<double4> const& level : image.smaller) add(level);
     return halves;
 }
 

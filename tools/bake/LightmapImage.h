@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightmapImage: baked texels as an image that the engine samples.
-///   Out     RGBA16F, one level: irradiance over `intensity`, and in alpha the part of the sky that is seen. The
-///           intensity is a power of two at which the brightest texel lies below 2^kTopExponent: so halves keep ten
-///           bits of every texel down to 2^-29 of that.
+///   Out     RGBA16F with the levels of the atlas: irradiance over `intensity`, and in alpha the part of the sky that
+///           is seen. The intensity is a power of two at which the brightest texel lies below 2^kTopExponent: so halves
+///           keep ten bits of every texel down to 2^-29 of that.
 ///   Filled  texels that mostly see backs of surfaces, as inside of walls, and those that no surface has: from the
 ///           nearest texels of the same chart, ring by ring, each the mean of its neighbours that have light.
+///   Levels  a texel is the mean of the light of the surface that it covers: texels of level 0 count whose centres lie
+///           on their chart and whose light was traced. Where it covers none, it is the mean of the filled ones.
 ///   Thread  any; pure.
 #pragma once
 
@@ -18,17 +20,18 @@ inline constexpr int kTopExponent = 14;
 
 struct LightmapImage {
     uint32_t side = 0;
-    std::vector<double4> texels; ///< lux, and openness; row 0 at v = 0
-    double intensity = 1;        ///< lux
-    uint64_t hidden = 0;         ///< texels that see backs
-    uint64_t filled = 0;         ///< of charts, hidden ones among them
+    std::vector<double4> texels;               ///< lux, and openness; row 0 at v = 0
+    std::vector<std::vector<double4>> smaller; ///< levels 1, 2, ...
+    double intensity = 1;                      ///< lux
+    uint64_t hidden = 0;                       ///< texels that see backs
+    uint64_t filled = 0;                       ///< of charts, hidden ones among them
 };
 
 LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights);
 
-/// As RGBA16F.
+/// As RGBA16F, all levels.
 assets::Image halvesOf(LightmapImage const& image);
-/// What bilinear filtering finds at a place of it, in texels; over the intensity.
+/// What bilinear filtering finds at a place of its first level, in texels; over the intensity.
 double4 lookUp(assets::Image const& halves, double2 place);
 /// RGBA8 sRGB, brightest at 1: for reports.
 std::vector<std::byte> previewOf(LightmapImage const& image);

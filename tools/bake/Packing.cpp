@@ -8,7 +8,7 @@
 namespace filament_core::bake {
 namespace {
 
-constexpr uint32_t kSideStep = 4; // sides are multiples
+constexpr uint32_t kSideStep = 4; // sides are multiples of it
 
 /// The upper border of what is placed: pieces from left to right, which fill the width.
 class Skyline {
@@ -71,7 +71,7 @@ std::optional<std::vector<uint2>> packInto(std::span<const uint2> sizes, std::sp
 
 } // namespace
 
-std::optional<Packing> packRectangles(std::span<const uint2> sizes, uint32_t most) {
+std::optional<Packing> packRectangles(std::span<const uint2> sizes, uint32_t most, uint32_t step) {
     std::vector<uint32_t> order(sizes.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) {
@@ -79,15 +79,16 @@ std::optional<Packing> packRectangles(std::span<const uint2> sizes, uint32_t mos
     });
     uint64_t area = 0;
     for (const uint2 size : sizes) area += uint64_t(size.x) * size.y;
-    const auto steps = [](double texels) { return static_cast<uint32_t>(std::ceil(texels / kSideStep)); };
-    uint32_t low = std::max(steps(std::sqrt(double(area))), 1u), high = most / kSideStep;
+    const uint32_t sideStep = std::max(kSideStep, step);
+    uint32_t low = std::max(static_cast<uint32_t>(std::ceil(std::sqrt(double(area)) / sideStep)), 1u);
+    uint32_t high = most / sideStep;
     if (low > high) return std::nullopt;
     std::optional<Packing> best;
     while (low <= high) {
         const uint32_t middle = best ? low + (high - low) / 2 : std::min(low + low / 4, high);
-        std::optional<std::vector<uint2>> places = packInto(sizes, order, middle * kSideStep);
+        std::optional<std::vector<uint2>> places = packInto(sizes, order, middle * sideStep);
         if (places) {
-            best = Packing{ middle * kSideStep, std::move(*places) };
+            best = Packing{ middle * sideStep, std::move(*places) };
             high = middle - 1;
         } else {
             low = middle + 1;

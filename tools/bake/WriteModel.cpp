@@ -17,7 +17,8 @@ namespace {
 using assets::kNone;
 using tools::Json;
 
-constexpr int kFloat = 5126, kUint = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+constexpr int kFloat = 5126, kUint = 5125, kArrayBuffer = 34962, kElementBuffer = 34963, kBilinear = 9729,
+              kTrilinear = 9987;
 
 class Writer {
 public:
@@ -129,8 +130,10 @@ private:
     uint32_t addTexture() {
         mRoot["images"].push_back(
                 { { "name", "lightmap" }, { "bufferView", addView(mLight.ktx2) }, { "mimeType", "image/ktx2" } });
-        mRoot["samplers"].push_back(
-                { { "magFilter", 9729 }, { "minFilter", 9729 }, { "wrapS", 33071 }, { "wrapT", 33071 } });
+        mRoot["samplers"].push_back({ { "magFilter", 9729 },
+                                      { "minFilter", mAtlas.levels > 1 ? kTrilinear : kBilinear },
+                                      { "wrapS", 33071 },
+                                      { "wrapT", 33071 } });
         const Json source{ { "source", mRoot["images"].size() - 1 } };
         mRoot["textures"].push_back(
                 { { "sampler", mRoot["samplers"].size() - 1 }, { "extensions", { { kLightmapExtension, source } } } });

@@ -88,6 +88,21 @@ void expectNoOverlap(Atlas const& atlas) {
     }
 }
 
+/// The four texels that bilinear filtering reads at a corner of a chart lie in the box of the chart, whatever the level.
+void expectLevelsInside(AtlasChart const& chart, double2 inside, uint32_t levels) {
+    for (uint32_t level = 0; level < levels; ++level) {
+        const uint32_t texel = 1u << level;
+        for (int axis = 0; axis < 2; ++axis) {
+            ASSERT_EQ(chart.place[axis] % texel, 0u);
+            ASSERT_EQ(chart.size[axis] % texel, 0u);
+            const double first = std::floor(inside[axis] / texel - 0.5 + 1e-9);
+            const double last = std::ceil(inside[axis] / texel - 0.5 - 1e-9);
+            ASSERT_GE(first, 0) << "level " << level;
+            ASSERT_LT(last, double(chart.size[axis] / texel)) << "level " << level;
+        }
+    }
+}
+
 /// Each texel that bilinear filtering of a chart reads belongs to no other chart's box, and lies in the image.
 void expectPadding(Atlas const& atlas) {
     std::vector<uint32_t> owner(size_t(atlas.side) * atlas.side, ~0u);
@@ -107,6 +122,7 @@ void expectPadding(Atlas const& atlas) {
             ASSERT_GE(std::min(inside.x, inside.y), kPadding - 1e-9);
             ASSERT_LE(inside.x, chart.size.x - kPadding + 1e-6);
             ASSERT_LE(inside.y, chart.size.y - kPadding + 1e-6);
+            expectLevelsInside(chart, inside, atlas.levels);
         }
     }
 }
@@ -143,7 +159,7 @@ TEST(BakeCharts, NothingOverlapsInRandomMeshes) {
     jobs::JobSystem jobs({ .workers = 1 });
     for (uint32_t seed = 1; seed <= 20; ++seed) {
         const BakeSurface surface = randomMesh(seed, 30 * seed);
-        expectWholeAtlas({ &surface, 1 }, { .texelsPerMeter = 20 }, jobs);
+        expectWholeAtlas({ &surface, 1 }, { .texelsPerMeter = 20, .levels = 1 + seed % kMostLevels }, jobs);
         if (HasFatalFailure()) return;
     }
 }

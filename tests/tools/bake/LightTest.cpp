@@ -281,6 +281,37 @@ TEST(LightmapImage, KeepsTenBitsOfDimAndOfBrightLight) {
     }
 }
 
+// Two floors of one texel a metre, one twice as bright: what a level has of a chart is the light of that chart alone,
+// and the mean of what was traced on the surface.
+TEST(LightmapImage, SmallerLevelsKnowTheirOwnChartAlone) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const std::array surfaces{ floorSurface(5), floorSurface(11) };
+    const Result<Atlas> atlas = makeAtlas(surfaces, { .texelsPerMeter = 1, .levels = 5 }, jobs);
+    ASSERT_TRUE(atlas);
+    const std::vector<AtlasTexel> texels = findTexels(*atlas);
+    std::vector<TexelLight> lights;
+    for (AtlasTexel const& texel : texels) {
+        // beyond the border, and where backs are seen, is a light that no level may show
+        const double lux = texel.distance > 0 || texel.x % 3 == 0 ? 1000 : texel.chart == 0 ? 1 : 2;
+        lights.push_back({ .irradiance = double3(lux), .openness = 0.5, .backs = texel.x % 3 == 0 ? 1.0 : 0.0 });
+    }
+    const LightmapImage image = makeImage(*atlas, texels, lights);
+    ASSERT_EQ(image.smaller.size(), 4u);
+    for (uint32_t level = 1; level < 5; ++level) {
+        const uint32_t width = image.side >> level;
+        ASSERT_EQ(image.smaller[level - 1].size(), size_t(width) * width);
+        for (AtlasTexel const& texel : texels) {
+            if (texel.distance > 0 || texel.x % 3 == 0) continue;
+            const double4 value = image.smaller[level - 1][size_t(texel.y >> level) * width + (texel.x >> level)];
+            EXPECT_NEAR(value.x, texel.chart == 0 ? 1 : 2, 1e-12) << "level " << level;
+            EXPECT_NEAR(value.w, 0.5, 1e-12);
+        }
+    }
+    const assets::Image halves = halvesOf(image);
+    EXPECT_EQ(halves.levels, 5u);
+    EXPECT_EQ(halves.data.size(), halves.levelOffset(5));
+}
+
 class JournalTest : public ::testing::Test {
 protected:
     void SetUp() override {

@@ -54,7 +54,8 @@ TEST_F(BakeProgram, WritesAModelWhoseMaterialsNameTheLightmap) {
             EXPECT_FALSE(material.light.hasDirectLight);
             assets::Image const& image = model->images[material.light.map.image];
             EXPECT_EQ(image.format, backend::Format::RGBA16F);
-            EXPECT_EQ(image.levels, 1u);
+            EXPECT_EQ(image.levels, 4u);
+            EXPECT_EQ(material.light.map.sampler.mipFilter, MipFilter::Linear);
         }
     }
 }
