@@ -121,8 +121,8 @@ private:
     std::set<TextureHandle> mNormalMaps;
 };
 
-/// Moves the texels of lightmaps by one, so that those of one chart lie in the next.
-class LightmapShift final : public PayloadEdit {
+/// Changes the texels of lightmaps.
+class LightmapEdit : public PayloadEdit {
 public:
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
@@ -136,15 +136,46 @@ public:
     }
 
     using PayloadEdit::edit;
-    void edit(CmdUploadTexture& command) override {
-        constexpr ptrdiff_t kTexel = 8; // RGBA16F
-        if (!mLightmaps.contains(command.texture)) return;
-        Bytes& texels = copy(command.bytes);
-        std::rotate(texels.begin(), texels.begin() + kTexel, texels.end());
+    void edit(CmdUploadTexture& command) final {
+        if (mLightmaps.contains(command.texture)) change(command, copy(command.bytes));
     }
+
+protected:
+    virtual void change(CmdUploadTexture const& command, Bytes& texels) = 0;
 
 private:
     std::set<TextureHandle> mLightmaps;
+};
+
+/// Moves the texels of some levels by one, so that those of one chart lie in the next.
+class LightmapShift final : public LightmapEdit {
+public:
+    explicit LightmapShift(uint8_t firstLevel) : mFirstLevel(firstLevel) {}
+
+private:
+    void change(CmdUploadTexture const& command, Bytes& texels) override {
+        constexpr ptrdiff_t kTexel = 8; // RGBA16F
+        if (command.level >= mFirstLevel) std::rotate(texels.begin(), texels.begin() + kTexel, texels.end());
+    }
+
+    const uint8_t mFirstLevel;
+};
+
+/// All pages have the texels of the first.
+class LightmapPages final : public LightmapEdit {
+public:
+    void inspect(CommandView commands) override {
+        LightmapEdit::inspect(commands);
+        mFirst.clear();
+    }
+
+private:
+    void change(CmdUploadTexture const& command, Bytes& texels) override {
+        const auto [first, isFirst] = mFirst.try_emplace(command.level, texels);
+        if (!isFirst && first->second.size() == texels.size()) texels = first->second;
+    }
+
+    std::map<uint8_t, Bytes> mFirst; // by level
 };
 
 /// The picture of a loader that assumes DirectX's convention.
@@ -161,7 +192,9 @@ std::unique_ptr<StreamEdit> multiscatter() { return std::make_unique<ParameterEd
 std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
 std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bumpFactor", 1, 1.05f); }
 std::unique_ptr<StreamEdit> bakedLight() { return std::make_unique<ParameterEdit>("lightIntensity", 1, 1.02f); }
-std::unique_ptr<StreamEdit> lightmapShift() { return std::make_unique<LightmapShift>(); }
+std::unique_ptr<StreamEdit> lightmapShift() { return std::make_unique<LightmapShift>(uint8_t{ 0 }); }
+std::unique_ptr<StreamEdit> lightmapLevels() { return std::make_unique<LightmapShift>(uint8_t{ 1 }); }
+std::unique_ptr<StreamEdit> lightmapPages() { return std::make_unique<LightmapPages>(); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMaterialMutations[] = {
@@ -172,6 +205,8 @@ constexpr Mutation kMaterialMutations[] = {
     { "emissive", "emission + 2 %", emissive },
     { "bakedLight", "baked light + 2 %", bakedLight },
     { "lightmapShift", "lightmaps moved by a texel", lightmapShift },
+    { "lightmapLevels", "smaller levels of lightmaps moved by a texel", lightmapLevels },
+    { "lightmapPages", "all pages of a lightmap are the first", lightmapPages },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "multiscatter", "colour of light scattered in solids - 5 %", multiscatter },
     { "thickness", "thickness of solids + 5 %", thickness },
