@@ -24,13 +24,16 @@ std::optional<Packing> pack(std::vector<AtlasChart>& charts, AtlasOptions const&
         if (std::max(chart.size.x, chart.size.y) > options.maxSide) return std::nullopt;
         sizes.push_back(chart.size);
     }
-    return packRectangles(sizes, options.maxSide, step);
+    return packRectangles(sizes, { options.maxSide, options.maxPages }, step);
 }
 
 AtlasSurface newVertices(BakeSurface const& surface, std::span<const AtlasChart> charts, Atlas const& atlas) {
     AtlasSurface result;
     result.indices.resize(surface.indices.size());
+    result.pages.resize(surface.indices.size() / 3);
     for (AtlasChart const& chart : charts) {
+        const uint32_t page = chart.place.y / atlas.side;
+        for (const uint32_t triangle : chart.chart.triangles) result.pages[triangle] = page;
         std::map<uint32_t, uint32_t> made; // vertices of this chart
         for (size_t i = 0; i < chart.chart.corners.size(); ++i) {
             const size_t at = size_t(chart.chart.triangles[i / 3]) * 3 + i % 3;
@@ -39,7 +42,8 @@ AtlasSurface newVertices(BakeSurface const& surface, std::span<const AtlasChart>
             result.indices[at] = entry->second;
             if (!isNew) continue;
             result.sources.push_back(source);
-            result.uvs.emplace_back(chart.corner(i, atlas.texelsPerMeter) / double(atlas.side));
+            const double2 corner = chart.corner(i, atlas.texelsPerMeter) - double2(0, double(page) * atlas.side);
+            result.uvs.emplace_back(corner / double(atlas.side));
         }
     }
     return result;
@@ -68,13 +72,16 @@ Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions cons
     for (size_t i = 0; i < options.scales.size(); ++i) atlas.charts[i].scale = options.scales[i];
     const std::optional<Packing> packing = pack(atlas.charts, options);
     if (!packing) {
-        const double density = 0.8 * double(options.maxSide) / std::sqrt(std::max(area, 1e-12));
+        const double density =
+                0.8 * double(options.maxSide) * std::sqrt(double(options.maxPages)) / std::sqrt(std::max(area, 1e-12));
         return fail(ErrorCode::InvalidArgument,
-                    "{} charts at {} texels a metre do not fit into {} x {} texels; try --density {:.3g}",
-                    atlas.charts.size(), options.texelsPerMeter, options.maxSide, options.maxSide,
+                    "{} charts at {} texels a metre do not fit into {} x {} texels on {} pages; try --density {:.3g}, "
+                    "or more with --max-size and --max-pages",
+                    atlas.charts.size(), options.texelsPerMeter, options.maxSide, options.maxSide, options.maxPages,
                     std::min(density, options.texelsPerMeter / 2));
     }
     atlas.side = packing->side;
+    atlas.pages = packing->pages;
     for (size_t i = 0; i < atlas.charts.size(); ++i) atlas.charts[i].place = packing->places[i];
     for (size_t i = 0; i < surfaces.size(); ++i) {
         const auto charts = std::span(atlas.charts).subspan(first[i], first[i + 1] - first[i]);

@@ -5,7 +5,8 @@
 ///           the node or of one above it, no instances (EXT_mesh_gpu_instancing). Unlit materials get no light. What is
 ///           not baked is drawn as before; one warning for each reason names the first such node.
 ///   Out     the file with all its buffers and images inside. Each baked node has a mesh of its own, because places in
-///           the lightmap are not shared, with attributes as floats; materials name the lightmap (docs/baking.md).
+///           the lightmap are not shared, with attributes as floats; materials name the lightmap (docs/baking.md). A
+///           primitive that lies on several pages becomes one for each of them.
 ///   Thread  one.  Memory: the file, and about 200 bytes a vertex.
 ///   Fails   as loadGltf(); InvalidArgument if nothing can be baked.
 #pragma once
@@ -47,9 +48,9 @@ Result<BakeModel> readBakeModel(std::filesystem::path const& path, jobs::JobSyst
 
 /// What materials say of the lightmap.
 struct LightmapEntry {
-    std::vector<std::byte> ktx2;
-    double intensity = 1;        ///< lux that a texel of 1 stands for
-    bool hasDirectLight = false; ///< of lamps
+    std::vector<std::vector<std::byte>> pages; ///< KTX 2.0 files
+    double intensity = 1;                      ///< lux that a texel of 1 stands for
+    bool hasDirectLight = false;               ///< of lamps
 };
 
 Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light);

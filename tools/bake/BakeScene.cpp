@@ -75,9 +75,9 @@ uint64_t hashOf(Options const& options, BakeScene const& bake, reference::Refere
     for (BakeSurface const& surface : bake.model.surfaces) hasher.add(surface.positions), hasher.add(surface.indices);
     for (AtlasSurface const& surface : bake.atlas.surfaces) hasher.add(surface.uvs);
     LightSettings const& light = options.light;
-    hasher.addNumbers({ double(bake.atlas.side), bake.atlas.texelsPerMeter, double(light.samplesPerTexel),
-                        light.relativeError, double(light.directLight), double(light.maxBounces), double(light.seed),
-                        double(options.heldOutPoints) });
+    hasher.addNumbers({ double(bake.atlas.side), double(bake.atlas.pages), bake.atlas.texelsPerMeter,
+                        double(light.samplesPerTexel), light.relativeError, double(light.directLight),
+                        double(light.maxBounces), double(light.seed), double(options.heldOutPoints) });
     return hasher.hash();
 }
 

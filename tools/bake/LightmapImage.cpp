@@ -109,8 +109,8 @@ std::vector<std::vector<double4>> smallerLevels(CoveredLevel level, uint32_t cou
 } // namespace
 
 LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights) {
-    LightmapImage image{ .side = atlas.side };
-    image.texels.assign(size_t(atlas.side) * atlas.side, double4(0.0));
+    LightmapImage image{ .side = atlas.side, .pages = atlas.pages };
+    image.texels.assign(size_t(atlas.side) * atlas.side * atlas.pages, double4(0.0));
     std::vector<bool> has(image.texels.size(), false);
     std::vector<uint32_t> covered(image.texels.size(), 0);
     double brightest = 0;
@@ -133,7 +133,7 @@ LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, 
 
 assets::Image halvesOf(LightmapImage const& image) {
     assets::Image halves{ .width = image.side,
-                          .height = image.side,
+                          .height = image.side * image.pages,
                           .levels = static_cast<uint32_t>(image.smaller.size()) + 1,
                           .format = backend::Format::RGBA16F };
     halves.data.reserve(halves.levelOffset(halves.levels));
@@ -149,6 +149,18 @@ assets::Image halvesOf(LightmapImage const& image) {
     add(image.texels);
     for (std::vector<double4> const& level : image.smaller) add(level);
     return halves;
+}
+
+assets::Image onePage(assets::Image const& all, uint32_t page) {
+    assets::Image image = all;
+    image.height = all.width;
+    image.data.clear();
+    for (uint32_t level = 0; level < all.levels; ++level) {
+        const uint64_t bytes = all.levelBytes(level) / (all.height / all.width);
+        const auto from = std::span(all.data).subspan(all.levelOffset(level) + page * bytes, bytes);
+        image.data.insert(image.data.end(), from.begin(), from.end());
+    }
+    return image;
 }
 
 double4 lookUp(assets::Image const& halves, double2 place) {

@@ -19,8 +19,9 @@ inline constexpr double kMostBacks = 0.5; ///< a texel that sees more of them is
 inline constexpr int kTopExponent = 14;
 
 struct LightmapImage {
-    uint32_t side = 0;
-    std::vector<double4> texels;               ///< lux, and openness; row 0 at v = 0
+    uint32_t side = 0; ///< of a page
+    uint32_t pages = 1;
+    std::vector<double4> texels;               ///< lux, and openness; row 0 at v = 0; of all pages, below each other
     std::vector<std::vector<double4>> smaller; ///< levels 1, 2, ...
     double intensity = 1;                      ///< lux
     uint64_t hidden = 0;                       ///< texels that see backs
@@ -29,11 +30,13 @@ struct LightmapImage {
 
 LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights);
 
-/// As RGBA16F, all levels.
+/// As RGBA16F, all levels, with the pages below each other.
 assets::Image halvesOf(LightmapImage const& image);
+/// One of these pages.
+assets::Image onePage(assets::Image const& all, uint32_t page);
 /// What bilinear filtering finds at a place of its first level, in texels; over the intensity.
 double4 lookUp(assets::Image const& halves, double2 place);
-/// RGBA8 sRGB, brightest at 1: for reports.
+/// RGBA8 sRGB, brightest at 1: for reports. Pages below each other.
 std::vector<std::byte> previewOf(LightmapImage const& image);
 
 } // namespace filament_core::bake

@@ -11,8 +11,9 @@ using tools::invalidOption;
 using tools::wholeNumber;
 
 struct Words {
-    std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", levels = "4",
-                samples = "1024", error, maxBounces = "64", seed = "1", heldOut = "256", direct, shard, threads;
+    std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", maxPages = "16",
+                levels = "4", samples = "1024", error, maxBounces = "64", seed = "1", heldOut = "256", direct, shard,
+                threads;
     std::vector<std::string> sun, exposure, merge;
 };
 
@@ -30,7 +31,9 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--texels", words.texels,
                "N: a budget instead of a density: a coarse bake finds where the light changes, and surfaces get more "
                "texels there (16 to 1e9)");
-    app.option("--max-size", words.maxSize, "largest side of the lightmap in texels (4096)");
+    app.option("--max-size", words.maxSize, "largest side of a page of the lightmap in texels (4096)");
+    app.option("--max-pages", words.maxPages,
+               "most pages; charts go on to a further one where they do not fit (16; 1 to 256)");
     app.option(
             "--levels", words.levels,
             "mip levels of the lightmap; each needs more padding around its charts, from the fourth on twice as much "
@@ -108,6 +111,7 @@ Result<void> convertLight(Words const& words, Options& options) {
         if (auto done = whole("--texels", words.texels, 16, 1'000'000'000, options.texels); !done) return done;
     }
     if (auto done = whole("--max-size", words.maxSize, 16, 16384, options.atlas.maxSide); !done) return done;
+    if (auto done = whole("--max-pages", words.maxPages, 1, 256, options.atlas.maxPages); !done) return done;
     if (auto done = whole("--levels", words.levels, 1, kMostLevels, options.atlas.levels); !done) return done;
     if (auto done = whole("--samples", words.samples, kLeastPasses, 1u << 20, options.light.samplesPerTexel); !done)
         return done;

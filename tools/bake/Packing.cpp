@@ -69,18 +69,25 @@ std::optional<std::vector<uint2>> packInto(std::span<const uint2> sizes, std::sp
     return places;
 }
 
-} // namespace
-
-std::optional<Packing> packRectangles(std::span<const uint2> sizes, uint32_t most, uint32_t step) {
+/// By descending height, and width.
+std::vector<uint32_t> orderOf(std::span<const uint2> sizes) {
     std::vector<uint32_t> order(sizes.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) {
         return sizes[a].y != sizes[b].y ? sizes[a].y > sizes[b].y : sizes[a].x > sizes[b].x;
     });
-    uint64_t area = 0;
-    for (const uint2 size : sizes) area += uint64_t(size.x) * size.y;
-    const uint32_t sideStep = std::max(kSideStep, step);
-    uint32_t low = std::max(static_cast<uint32_t>(std::ceil(std::sqrt(double(area)) / sideStep)), 1u);
+    return order;
+}
+
+double areaOfAll(std::span<const uint2> sizes) {
+    double area = 0;
+    for (const uint2 size : sizes) area += double(size.x) * size.y;
+    return area;
+}
+
+std::optional<Packing> packOnePage(std::span<const uint2> sizes, uint32_t most, uint32_t sideStep) {
+    const std::vector<uint32_t> order = orderOf(sizes);
+    uint32_t low = std::max(static_cast<uint32_t>(std::ceil(std::sqrt(areaOfAll(sizes)) / sideStep)), 1u);
     uint32_t high = most / sideStep;
     if (low > high) return std::nullopt;
     std::optional<Packing> best;
@@ -88,13 +95,64 @@ std::optional<Packing> packRectangles(std::span<const uint2> sizes, uint32_t mos
         const uint32_t middle = best ? low + (high - low) / 2 : std::min(low + low / 4, high);
         std::optional<std::vector<uint2>> places = packInto(sizes, order, middle * sideStep);
         if (places) {
-            best = Packing{ middle * sideStep, std::move(*places) };
+            best = Packing{ middle * sideStep, 1, std::move(*places) };
             high = middle - 1;
         } else {
             low = middle + 1;
         }
     }
     return best;
+}
+
+/// Places of as many of the first rectangles as a page holds, by bisection.
+std::vector<uint2> fillPage(std::span<const uint2> sizes, uint32_t side) {
+    std::vector<uint2> best;
+    size_t low = 1, high = 0;
+    for (double area = 0; high < sizes.size(); ++high) {
+        area += double(sizes[high].x) * sizes[high].y;
+        if (area > double(side) * side) break;
+    }
+    size_t next = high; // all of them may fit
+    while (low <= high) {
+        const auto first = sizes.first(next);
+        if (std::optional<std::vector<uint2>> places = packInto(first, orderOf(first), side)) {
+            best = std::move(*places);
+            low = next + 1;
+        } else {
+            high = next - 1;
+        }
+        next = low + (high - low) / 2;
+    }
+    return best;
+}
+
+std::optional<Packing> packPages(std::span<const uint2> sizes, uint32_t side, uint32_t most) {
+    Packing packing{ side, 0, {} };
+    while (packing.places.size() < sizes.size()) {
+        if (packing.pages == most) return std::nullopt;
+        const std::vector<uint2> page = fillPage(sizes.subspan(packing.places.size()), side);
+        if (page.empty()) return std::nullopt; // a rectangle is larger than a page
+        for (const uint2 place : page) packing.places.push_back(place + uint2(0, packing.pages * side));
+        ++packing.pages;
+    }
+    return packing;
+}
+
+} // namespace
+
+std::optional<Packing> packRectangles(std::span<const uint2> sizes, PackingLimits limits, uint32_t step) {
+    const uint32_t sideStep = std::max(kSideStep, step);
+    std::optional<Packing> best = packOnePage(sizes, limits.side, sideStep);
+    if (best || limits.pages == 1) return best;
+    const uint32_t most = limits.side / sideStep * sideStep;
+    best = packPages(sizes, most, limits.pages);
+    if (!best) return best;
+    constexpr double kGrowth = 1.02;
+    for (double side = std::sqrt(areaOfAll(sizes) / best->pages);; side *= kGrowth) {
+        const auto steps = static_cast<uint32_t>(std::ceil(side / sideStep));
+        if (steps * sideStep >= most) return best;
+        if (std::optional<Packing> smaller = packPages(sizes, steps * sideStep, best->pages)) return smaller;
+    }
 }
 
 } // namespace filament_core::bake

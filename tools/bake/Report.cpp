@@ -27,7 +27,8 @@ Json chartsToJson(BakeScene const& bake, std::vector<ChartSummary> const& charts
         AtlasChart const& chart = bake.atlas.charts[i];
         list.push_back({ { "node", nameOf(bake, i) },
                          { "triangles", chart.chart.triangles.size() },
-                         { "place", { chart.place.x, chart.place.y, chart.size.x, chart.size.y } },
+                         { "page", chart.place.y / bake.atlas.side },
+                         { "place", { chart.place.x, chart.place.y % bake.atlas.side, chart.size.x, chart.size.y } },
                          { "texels", charts[i].texels },
                          { "hidden", charts[i].hidden },
                          { "samples", charts[i].samples },
@@ -35,6 +36,58 @@ Json chartsToJson(BakeScene const& bake, std::vector<ChartSummary> const& charts
                          { "relativeError", charts[i].relativeError } });
     }
     return list;
+}
+
+struct PageSummary {
+    uint32_t charts = 0;
+    uint64_t texels = 0; ///< of charts, without their padding
+    double share = 0;    ///< of the page that charts take with their padding
+};
+
+std::vector<PageSummary> summarizePages(Atlas const& atlas, std::span<const AtlasTexel> texels) {
+    std::vector<PageSummary> pages(atlas.pages);
+    const double all = double(atlas.side) * atlas.side;
+    for (AtlasChart const& chart : atlas.charts) {
+        PageSummary& page = pages[chart.place.y / atlas.side];
+        ++page.charts;
+        page.share += double(chart.size.x) * chart.size.y / all;
+    }
+    for (AtlasTexel const& texel : texels) ++pages[texel.y / atlas.side].texels;
+    return pages;
+}
+
+Json pagesToJson(std::vector<PageSummary> const& pages) {
+    Json list = Json::array();
+    for (PageSummary const& page : pages)
+        list.push_back({ { "charts", page.charts }, { "texels", page.texels }, { "share", page.share } });
+    return list;
+}
+
+/// A table, if there are several.
+std::string tableOf(std::vector<PageSummary> const& pages) {
+    if (pages.size() == 1) return {};
+    std::string table = "| page | charts | texels | of the page |\n|---:|---:|---:|---:|\n";
+    for (size_t i = 0; i < pages.size(); ++i)
+        table +=
+                fmt::format("| {} | {} | {} | {:.0f} % |\n", i, pages[i].charts, pages[i].texels, pages[i].share * 100);
+    return table + "\n";
+}
+
+/// "lightmap.png", "lightmap-1.png", ...
+std::string pictureName(const char* stem, uint32_t page) {
+    return page == 0 ? fmt::format("{}.png", stem) : fmt::format("{}-{}.png", stem, page);
+}
+
+/// A picture of each page; `pixels` has them below each other.
+Result<void> writePictures(Options const& options, const char* stem, LightmapImage const& image,
+                           std::vector<std::byte> const& pixels) {
+    const size_t bytes = size_t(image.side) * image.side * 4;
+    for (uint32_t page = 0; page < image.pages; ++page) {
+        const auto part = std::span(pixels).subspan(page * bytes, bytes);
+        if (auto done = assets::writePng(options.out / pictureName(stem, page), image.side, image.side, part); !done)
+            return done;
+    }
+    return {};
 }
 
 ChartSummary wholeOf(std::vector<ChartSummary> const& charts) {
@@ -83,12 +136,17 @@ std::string sentenceOf(HeldOutReport const& heldOut) {
 std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vector<ChartSummary> const& charts,
                    HeldOutReport const& heldOut) {
     const ChartSummary whole = wholeOf(charts);
-    std::string page = fmt::format("# Lightmap\n\n{} charts with {} texels in {} x {}, {:.4g} texels a metre; {:.0f} "
-                                   "samples a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of "
-                                   "surfaces and were filled from their neighbours.\n\n![lightmap](lightmap.png) "
-                                   "![standard error](error.png)\n\n",
-                                   charts.size(), whole.texels, image.side, image.side, bake.atlas.texelsPerMeter,
-                                   whole.samples, whole.meanLux, whole.relativeError * 100, whole.hidden);
+    std::string page = fmt::format(
+            "# Lightmap\n\n{} charts with {} texels in {} x {} on {} {} with {} {}, {:.4g} texels "
+            "a metre; {:.0f} samples a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of "
+            "surfaces and were filled from their neighbours.\n\n",
+            charts.size(), whole.texels, image.side, image.side, image.pages, image.pages == 1 ? "page" : "pages",
+            bake.atlas.levels, bake.atlas.levels == 1 ? "level" : "levels", bake.atlas.texelsPerMeter, whole.samples,
+            whole.meanLux, whole.relativeError * 100, whole.hidden);
+    for (uint32_t i = 0; i < image.pages; ++i)
+        page += fmt::format("![lightmap]({}) ![standard error]({})\n\n", pictureName("lightmap", i),
+                            pictureName("error", i));
+    page += tableOf(summarizePages(bake.atlas, bake.texels));
     page += sentenceOf(heldOut);
     page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
             "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
@@ -104,7 +162,7 @@ std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vecto
 }
 
 std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux) {
-    std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * 4, std::byte{ 0 });
+    std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * bake.atlas.pages * 4, std::byte{ 0 });
     for (size_t i = 0; i < bake.texels.size(); ++i) {
         const double error = luminanceOf(lights[i].standardError) / std::max(meanLux, 1e-30);
         const auto code = static_cast<std::byte>(std::lround(std::min(error * 10, 1.0) * 255));
@@ -155,6 +213,8 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
     for (TexelLight const& light : lights) rays += light.rays;
     const Json report{ { "model", options.model.filename().string() },
                        { "side", image.side },
+                       { "levels", bake.atlas.levels },
+                       { "pages", pagesToJson(summarizePages(bake.atlas, bake.texels)) },
                        { "texelsPerMeter", bake.atlas.texelsPerMeter },
                        { "texCoord", bake.model.uvSet },
                        { "intensityLux", image.intensity },
@@ -172,10 +232,8 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
     if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
     const std::string page = pageOf(bake, image, charts, heldOut);
     if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
-    if (auto done = assets::writePng(options.out / "lightmap.png", image.side, image.side, previewOf(image)); !done)
-        return done;
-    return assets::writePng(options.out / "error.png", image.side, image.side,
-                            errorPicture(bake, lights, whole.meanLux));
+    if (auto done = writePictures(options, "lightmap", image, previewOf(image)); !done) return done;
+    return writePictures(options, "error", image, errorPicture(bake, lights, whole.meanLux));
 }
 
 } // namespace filament_core::bake

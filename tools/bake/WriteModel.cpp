@@ -39,7 +39,7 @@ public:
             if (auto done = embedFiles("lights", mRoot["extensions"]["EXT_lights_ies"]["lights"]); !done)
                 return done.error();
         }
-        const uint32_t texture = addTexture();
+        const uint32_t texture = addTextures();
         addMeshes();
         addToMaterials(texture);
         Json& used = mRoot["extensionsUsed"];
@@ -127,17 +127,22 @@ private:
         return begins("ftyp", 4) ? "image/avif" : "image/jpeg";
     }
 
-    uint32_t addTexture() {
-        mRoot["images"].push_back(
-                { { "name", "lightmap" }, { "bufferView", addView(mLight.ktx2) }, { "mimeType", "image/ktx2" } });
+    /// One for each page; returns the first.
+    uint32_t addTextures() {
         mRoot["samplers"].push_back({ { "magFilter", 9729 },
                                       { "minFilter", mAtlas.levels > 1 ? kTrilinear : kBilinear },
                                       { "wrapS", 33071 },
                                       { "wrapT", 33071 } });
-        const Json source{ { "source", mRoot["images"].size() - 1 } };
-        mRoot["textures"].push_back(
-                { { "sampler", mRoot["samplers"].size() - 1 }, { "extensions", { { kLightmapExtension, source } } } });
-        return static_cast<uint32_t>(mRoot["textures"].size() - 1);
+        const auto first = static_cast<uint32_t>(mRoot["textures"].size());
+        for (size_t page = 0; page < mLight.pages.size(); ++page) {
+            const std::string name = page == 0 ? std::string("lightmap") : fmt::format("lightmap {}", page);
+            mRoot["images"].push_back(
+                    { { "name", name }, { "bufferView", addView(mLight.pages[page]) }, { "mimeType", "image/ktx2" } });
+            const Json source{ { "source", mRoot["images"].size() - 1 } };
+            mRoot["textures"].push_back({ { "sampler", mRoot["samplers"].size() - 1 },
+                                          { "extensions", { { kLightmapExtension, source } } } });
+        }
+        return first;
     }
 
     /// Values of the new vertices, `components` floats each.
@@ -172,8 +177,30 @@ private:
         return static_cast<uint32_t>(mRoot["accessors"].size() - 1);
     }
 
-    void rewrite(BakeModel::Source const& source, Json& primitive) {
-        AtlasSurface const& surface = mAtlas.surfaces[source.surface];
+    /// Pages on which a surface lies.
+    static std::set<uint32_t> pagesOf(AtlasSurface const& surface) {
+        std::set<uint32_t> pages(surface.pages.begin(), surface.pages.end());
+        if (pages.empty()) pages.insert(0);
+        return pages;
+    }
+
+    /// The triangles of a page, and the vertices that they use.
+    static AtlasSurface onPage(AtlasSurface const& surface, uint32_t page) {
+        AtlasSurface part;
+        std::map<uint32_t, uint32_t> made;
+        for (size_t i = 0; i < surface.indices.size(); ++i) {
+            if (surface.pages[i / 3] != page) continue;
+            const uint32_t vertex = surface.indices[i];
+            const auto [entry, isNew] = made.try_emplace(vertex, static_cast<uint32_t>(part.sources.size()));
+            part.indices.push_back(entry->second);
+            if (!isNew) continue;
+            part.sources.push_back(surface.sources[vertex]);
+            part.uvs.push_back(surface.uvs[vertex]);
+        }
+        return part;
+    }
+
+    void rewrite(BakeModel::Source const& source, AtlasSurface const& surface, Json& primitive) {
         assets::GltfGeometry const& geometry = source.geometry;
         Json attributes{ { "POSITION", addAttribute(surface, geometry.positions, true) } };
         if (!geometry.normals.empty()) attributes["NORMAL"] = addAttribute(surface, geometry.normals);
@@ -186,7 +213,7 @@ private:
         }
         attributes[fmt::format("TEXCOORD_{}", mModel.uvSet)] = addValues(surface.uvs);
         primitive["attributes"] = std::move(attributes);
-        primitive["indices"] = addIndices(writtenIndices(source, surface));
+        primitive["indices"] = addIndices(surface.indices);
         if (primitive.contains("extensions")) {
             primitive["extensions"].erase("KHR_draco_mesh_compression");
             if (primitive["extensions"].empty()) primitive.erase("extensions");
@@ -194,13 +221,13 @@ private:
     }
 
     /// In the winding of the file: surfaces of mirrored nodes were turned.
-    std::vector<uint32_t> writtenIndices(BakeModel::Source const& source, AtlasSurface const& surface) const {
-        std::vector<uint32_t> indices = surface.indices;
+    static AtlasSurface asWound(BakeModel::Source const& source, AtlasSurface surface) {
+        std::vector<uint32_t>& indices = surface.indices;
         for (size_t i = 0; i + 2 < indices.size(); i += 3) {
             if (surface.sources[indices[i + 1]] != source.geometry.indices[i + 1])
                 std::swap(indices[i + 1], indices[i + 2]);
         }
-        return indices;
+        return surface;
     }
 
     void addMeshes() {
@@ -213,33 +240,42 @@ private:
                 entry->second = static_cast<uint32_t>(mRoot["meshes"].size() - 1);
                 mRoot["nodes"][source.node]["mesh"] = entry->second;
             }
-            Json& primitive = mRoot["meshes"][entry->second]["primitives"][source.primitive];
-            rewrite(source, primitive);
-            mBaked.emplace(entry->second, source.primitive);
+            Json& primitives = mRoot["meshes"][entry->second]["primitives"];
+            const AtlasSurface surface = asWound(source, mAtlas.surfaces[source.surface]);
+            const std::set<uint32_t> pages = pagesOf(surface);
+            const Json original = primitives[source.primitive];
+            for (const uint32_t page : pages) {
+                const bool isFirst = page == *pages.begin();
+                const size_t index = isFirst ? source.primitive : primitives.size();
+                if (!isFirst) primitives.push_back(original);
+                rewrite(source, pages.size() == 1 ? surface : onPage(surface, page), primitives[index]);
+                mBaked[{ entry->second, static_cast<uint32_t>(index) }] = page;
+            }
         }
     }
 
     /// Materials of baked primitives, once more where others use them too.
-    void addToMaterials(uint32_t texture) {
-        std::map<uint32_t, uint32_t> lit; // by material of the file
-        const auto litOne = [&](uint32_t material) {
-            const auto [entry, isNew] = lit.try_emplace(material, 0);
+    void addToMaterials(uint32_t firstTexture) {
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> lit; // by material of the file and page
+        const auto litOne = [&](uint32_t material, uint32_t page) {
+            const auto [entry, isNew] = lit.try_emplace({ material, page }, 0);
             if (!isNew) return entry->second;
             Json copy = material == kNone ? Json::object() : mRoot["materials"][material];
-            copy["extensions"][kLightmapExtension] = { { "lightmapTexture",
-                                                         { { "index", texture }, { "texCoord", mModel.uvSet } } },
-                                                       { "intensity", mLight.intensity },
-                                                       { "directLight", mLight.hasDirectLight } };
+            copy["extensions"][kLightmapExtension] = {
+                { "lightmapTexture", { { "index", firstTexture + page }, { "texCoord", mModel.uvSet } } },
+                { "intensity", mLight.intensity },
+                { "directLight", mLight.hasDirectLight }
+            };
             mRoot["materials"].push_back(std::move(copy));
             return entry->second = static_cast<uint32_t>(mRoot["materials"].size() - 1);
         };
-        for (auto const& [mesh, index] : mBaked) {
-            Json& primitive = mRoot["meshes"][mesh]["primitives"][index];
-            primitive["material"] = litOne(primitive.value("material", kNone));
+        for (auto const& [baked, page] : mBaked) {
+            Json& primitive = mRoot["meshes"][baked.first]["primitives"][baked.second];
+            primitive["material"] = litOne(primitive.value("material", kNone), page);
             if (!primitive.contains("extensions") || !primitive["extensions"].contains("KHR_materials_variants"))
                 continue;
             for (Json& mapping : primitive["extensions"]["KHR_materials_variants"]["mappings"])
-                mapping["material"] = litOne(mapping["material"].get<uint32_t>());
+                mapping["material"] = litOne(mapping["material"].get<uint32_t>(), page);
         }
     }
 
@@ -270,7 +306,7 @@ private:
     assets::GltfContainer mContainer;
     Json mRoot;
     std::vector<std::byte> mBinary;
-    std::set<std::pair<uint32_t, uint32_t>> mBaked; // mesh and primitive
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> mBaked; // pages, by mesh and primitive
 };
 
 } // namespace

@@ -94,7 +94,10 @@ int finishedPart(Options const& options, RecordRange range, size_t all) {
 int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights) {
     const auto texels = lights.first(bake.texels.size());
     const LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
-    const LightmapEntry entry{ assets::encodeKtx2(halvesOf(image)), image.intensity, options.light.directLight };
+    LightmapEntry entry{ {}, image.intensity, options.light.directLight };
+    const assets::Image halves = halvesOf(image);
+    for (uint32_t page = 0; page < image.pages; ++page)
+        entry.pages.push_back(assets::encodeKtx2(onePage(halves, page)));
     const Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
     if (!file) return failed(file.error());
     const std::filesystem::path path = options.out / "baked.glb";
@@ -108,8 +111,9 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
                 "no triangle has an area in the lightmap; give a larger --density, or a model with surfaces");
     else if (isDark)
         tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
-    std::printf("%s: %zu texels of %zu charts in %u x %u\n", path.c_str(), bake.texels.size(), bake.atlas.charts.size(),
-                image.side, image.side);
+    const std::string pages = image.pages == 1 ? std::string() : fmt::format(" on {} pages", image.pages);
+    std::printf("%s: %zu texels of %zu charts in %u x %u%s\n", path.c_str(), bake.texels.size(),
+                bake.atlas.charts.size(), image.side, image.side, pages.c_str());
     return 0;
 }
 

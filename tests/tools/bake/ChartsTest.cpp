@@ -88,7 +88,7 @@ void expectNoOverlap(Atlas const& atlas) {
     }
 }
 
-/// The four texels that bilinear filtering reads at a corner of a chart lie in the box of the chart, whatever the level.
+/// The four texels that bilinear filtering reads at a corner of a chart lie in the box of the chart, at every level.
 void expectLevelsInside(AtlasChart const& chart, double2 inside, uint32_t levels) {
     for (uint32_t level = 0; level < levels; ++level) {
         const uint32_t texel = 1u << level;
@@ -105,11 +105,12 @@ void expectLevelsInside(AtlasChart const& chart, double2 inside, uint32_t levels
 
 /// Each texel that bilinear filtering of a chart reads belongs to no other chart's box, and lies in the image.
 void expectPadding(Atlas const& atlas) {
-    std::vector<uint32_t> owner(size_t(atlas.side) * atlas.side, ~0u);
+    std::vector<uint32_t> owner(size_t(atlas.side) * atlas.side * atlas.pages, ~0u);
     for (uint32_t c = 0; c < atlas.charts.size(); ++c) {
         AtlasChart const& chart = atlas.charts[c];
         ASSERT_LE(chart.place.x + chart.size.x, atlas.side);
-        ASSERT_LE(chart.place.y + chart.size.y, atlas.side);
+        ASSERT_LT(chart.place.y / atlas.side, atlas.pages);
+        ASSERT_LE(chart.place.y % atlas.side + chart.size.y, atlas.side) << "on one page";
         for (uint32_t y = 0; y < chart.size.y; ++y) {
             for (uint32_t x = 0; x < chart.size.x; ++x) {
                 uint32_t& texel = owner[size_t(chart.place.y + y) * atlas.side + chart.place.x + x];
@@ -159,7 +160,12 @@ TEST(BakeCharts, NothingOverlapsInRandomMeshes) {
     jobs::JobSystem jobs({ .workers = 1 });
     for (uint32_t seed = 1; seed <= 20; ++seed) {
         const BakeSurface surface = randomMesh(seed, 30 * seed);
-        expectWholeAtlas({ &surface, 1 }, { .texelsPerMeter = 20, .levels = 1 + seed % kMostLevels }, jobs);
+        const bool hasPages = seed % 2 == 0;
+        const AtlasOptions options{ .texelsPerMeter = 20,
+                                    .maxSide = hasPages ? 256u : 4096u,
+                                    .maxPages = hasPages ? 99u : 1u,
+                                    .levels = 1 + seed % kMostLevels };
+        expectWholeAtlas({ &surface, 1 }, options, jobs);
         if (HasFatalFailure()) return;
     }
 }
@@ -231,15 +237,51 @@ TEST(BakePacking, RectanglesFillMostOfTheImage) {
         sizes.emplace_back(4 + random() % 60, 4 + random() % 60);
         area += uint64_t(sizes.back().x) * sizes.back().y;
     }
-    const std::optional<Packing> packing = packRectangles(sizes, 4096);
+    const std::optional<Packing> packing = packRectangles(sizes, { 4096 });
     ASSERT_TRUE(packing);
     EXPECT_GT(double(area) / (double(packing->side) * packing->side), 0.8);
 }
 
 TEST(BakePacking, WhatDoesNotFitIsRefused) {
     const std::vector<uint2> sizes(5, uint2(40, 40));
-    EXPECT_FALSE(packRectangles(sizes, 80));
-    EXPECT_TRUE(packRectangles(sizes, 120));
+    EXPECT_FALSE(packRectangles(sizes, { 80 }));
+    EXPECT_TRUE(packRectangles(sizes, { 120 }));
+    EXPECT_TRUE(packRectangles(sizes, { 80, 2 }));
+    EXPECT_FALSE(packRectangles(sizes, { 39, 99 })) << "one is larger than a page";
+    EXPECT_FALSE(packRectangles(sizes, { 40, 4 }));
+    EXPECT_EQ(packRectangles(sizes, { 40, 5 })->pages, 5u);
+}
+
+// Of rectangles that follow each other, as those of a surface do, the first pages hold the first ones.
+TEST(BakePacking, PagesAreFewAndFullAndInTheOrderOfTheRectangles) {
+    std::minstd_rand random(7);
+    std::vector<uint2> sizes;
+    double area = 0;
+    for (int i = 0; i < 2000; ++i) {
+        sizes.emplace_back(8 * (1 + random() % 6), 8 * (1 + random() % 6));
+        area += double(sizes.back().x) * sizes.back().y;
+    }
+    const std::optional<Packing> packing = packRectangles(sizes, { 512, 99 }, 8);
+    ASSERT_TRUE(packing);
+    EXPECT_LE(packing->side, 512u);
+    EXPECT_EQ(packing->side % 8, 0u);
+    EXPECT_GT(area / (double(packing->side) * packing->side * packing->pages), 0.8);
+    std::vector<bool> taken(size_t(packing->side) * packing->side * packing->pages, false);
+    uint32_t page = 0;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        const uint2 place = packing->places[i];
+        ASSERT_GE(place.y / packing->side, page);
+        page = place.y / packing->side;
+        ASSERT_EQ((place.y + sizes[i].y - 1) / packing->side, page);
+        ASSERT_LE(place.x + sizes[i].x, packing->side);
+        for (uint32_t y = place.y; y < place.y + sizes[i].y; ++y) {
+            for (uint32_t x = place.x; x < place.x + sizes[i].x; ++x) {
+                ASSERT_FALSE(taken[size_t(y) * packing->side + x]) << "rectangle " << i;
+                taken[size_t(y) * packing->side + x] = true;
+            }
+        }
+    }
+    EXPECT_EQ(page + 1, packing->pages);
 }
 
 // A point of the square's inside stands for each texel whose centre lies in it, and borders have their nearest one.

@@ -3,10 +3,14 @@
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "tests/tools/bake/BakeRun.h"
 #include "toolkit/interiors/Interiors.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <filament_core/IrradianceGrid.h>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
 
 namespace filament_core::bake {
 namespace {
@@ -100,6 +104,46 @@ TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
     const Outcome large = run("cornell.glb --density 1e5 --max-size 256");
     EXPECT_EQ(large.status, 1);
     EXPECT_THAT(large.text, HasSubstr("try --density"));
+}
+
+// A primitive whose charts lie on two pages becomes two, with the triangles of each.
+TEST_F(BakeProgram, GoesOnToFurtherPagesWhereOneIsFull) {
+    ASSERT_EQ(run(std::string(kQuick) + "--out one").status, 0);
+    const Outcome outcome = run(std::string(kQuick) + "--max-size 24 --levels 3 --out pages");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr(" pages"));
+    EXPECT_TRUE(std::filesystem::exists(mFolder / "pages/lightmap-1.png"));
+    EXPECT_THAT(run(std::string(kQuick) + "--max-size 24 --max-pages 2").text, HasSubstr("on 2 pages; try --density"));
+
+    jobs::JobSystem jobs({ .workers = 1 });
+    const Result<assets::ModelData> one = assets::loadGltf(mFolder / "one/baked.glb", jobs);
+    const Result<assets::ModelData> pages = assets::loadGltf(mFolder / "pages/baked.glb", jobs);
+    ASSERT_TRUE(one && pages) << pages.error().message;
+    EXPECT_TRUE(pages->warnings.empty()) << pages->warnings.front();
+    std::set<uint32_t> images;
+    size_t triangles = 0, primitives = 0;
+    for (assets::MeshData const& mesh : pages->meshes) {
+        for (assets::PrimitiveData const& primitive : mesh.primitives) {
+            auto const& light = pages->materials[primitive.material].light;
+            ASSERT_TRUE(light.isUsed());
+            images.insert(light.map.image);
+            triangles += primitive.indexCount / 3, ++primitives;
+        }
+    }
+    size_t expected = 0, before = 0;
+    for (assets::MeshData const& mesh : one->meshes) {
+        for (assets::PrimitiveData const& primitive : mesh.primitives) expected += primitive.indexCount / 3, ++before;
+    }
+    EXPECT_EQ(triangles, expected);
+    EXPECT_GT(images.size(), 2u);
+    EXPECT_GT(primitives, before);
+    EXPECT_LT(primitives, before + images.size()) << "at most one is split between two pages";
+    const Result<tools::Json> report = tools::readJson(mFolder / "pages/report.json");
+    ASSERT_TRUE(report) << report.error().message;
+    ASSERT_EQ((*report)["pages"].size(), images.size());
+    uint64_t texels = 0;
+    for (tools::Json const& page : (*report)["pages"]) texels += page["texels"].get<uint64_t>();
+    EXPECT_EQ(texels, (*report)["texels"].get<uint64_t>());
 }
 
 TEST_F(BakeProgram, SpendsABudgetOfTexelsAlikeOnAnyNumberOfThreads) {
