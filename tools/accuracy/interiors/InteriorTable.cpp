@@ -2,6 +2,7 @@
 #include "tools/accuracy/interiors/InteriorTable.h"
 
 #include "base/Suggest.h"
+#include "toolkit/pictures/BlockErrors.h"
 #include "tools/accuracy/Studio.h"
 
 #include <fmt/format.h>
@@ -12,22 +13,12 @@
 namespace filament_core::accuracy {
 namespace {
 
-constexpr uint32_t kBlock = 8, kWarmUp = 2;
+constexpr uint32_t kWarmUp = 2;
 
 double rootMeanSquare(std::vector<double> const& values) {
     double squares = 0;
     for (const double value : values) squares += value * value;
     return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-/// The sum of `of(pixel)` over the block, divided by its pixels.
-template <class Of>
-double3 blockMean(uint32_t width, uint32_t x, uint32_t y, Of const& of) {
-    double3 sum(0.0);
-    for (uint32_t j = 0; j < kBlock; ++j) {
-        for (uint32_t i = 0; i < kBlock; ++i) sum += of(size_t(y * kBlock + j) * width + x * kBlock + i);
-    }
-    return sum / double(kBlock * kBlock);
 }
 
 class Measurement {
@@ -82,7 +73,8 @@ private:
                 if (!take) return take.error();
                 Result<Picture> picture = (*take)->shoot();
                 if (!picture) return picture.error();
-                const BlockErrors errors = blockErrors(*picture, files.traced[camera]);
+                TracedInterior const& traced = files.traced[camera];
+                const BlockErrors errors = blockErrors(*picture, traced.picture, traced.standardError);
                 result.techniques[t].errors.push_back(errors.error);
                 if (t == 0) result.noise.push_back(errors.noise);
                 result.techniques[t].pictures.push_back(std::move(*picture));
@@ -138,27 +130,6 @@ LightTechnique InteriorResult::best() const {
         if (error(static_cast<LightTechnique>(t)) < error(static_cast<LightTechnique>(least))) least = t;
     }
     return static_cast<LightTechnique>(least);
-}
-
-BlockErrors blockErrors(Picture const& picture, TracedInterior const& traced) {
-    double squares = 0, noise = 0, level = 0;
-    const uint32_t width = picture.width;
-    for (uint32_t y = 0; y < picture.height / kBlock; ++y) {
-        for (uint32_t x = 0; x < width / kBlock; ++x) {
-            const double3 truth = blockMean(width, x, y, [&](size_t i) { return double3(traced.picture.pixels[i]); });
-            const double3 drawn = blockMean(width, x, y, [&](size_t i) { return double3(picture.pixels[i]); });
-            const double3 variance = blockMean(width, x, y,
-                                               [&](size_t i) {
-                                                   const double3 error(traced.standardError.pixels[i]);
-                                                   return error * error;
-                                               }) /
-                                     double(kBlock * kBlock); // of independent pixels
-            squares += glm::dot(drawn - truth, drawn - truth);
-            noise += variance.x + variance.y + variance.z;
-            level += glm::dot(truth, truth);
-        }
-    }
-    return level > 0 ? BlockErrors{ std::sqrt(squares / level), std::sqrt(noise / level) } : BlockErrors{};
 }
 
 Result<InteriorResults> measureInteriors(InteriorOptions const& options,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// InteriorTable: how near each way of lighting a room comes to the path tracer, and what it costs.
-///   Error  root mean square of the differences of means of 8 x 8 pixels, scene-linear, over that of the traced image.
-///   Noise  the same of the traced image's own standard error, which is in every error and taken off none.
+///   Error  that of toolkit/pictures/BlockErrors.h, and so is the noise.
 ///   Time   of frames, in turns: in each round every technique draws the same camera, and ratios to the environment
 ///          alone are formed within the round; medians of rounds.
 ///   Thread one at a time.
@@ -51,12 +50,6 @@ struct InteriorOptions {
     InteriorSettings settings{};
     SceneFolders folders{};
 };
-
-/// Errors of means of 8 x 8 pixels, and the part of them that is noise.
-struct BlockErrors {
-    double error = 0, noise = 0;
-};
-BlockErrors blockErrors(Picture const& picture, TracedInterior const& traced);
 
 Result<InteriorResults> measureInteriors(InteriorOptions const& options,
                                          std::function<void(std::string const& what, double done)> const& progress);
