@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/program/Html.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -40,6 +42,13 @@ std::string base64(std::span<const std::byte> bytes) {
         for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
     }
     return text;
+}
+
+std::string figureOfPng(std::span<const std::byte> png, std::string_view title, std::string_view name) {
+    const std::string text = escapedHtml(title);
+    return fmt::format("<figure><img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}"
+                       "</figcaption></figure>",
+                       name, text, base64(png), text);
 }
 
 } // namespace filament_core::tools

@@ -13,19 +13,18 @@ namespace filament_core::conformance {
 namespace {
 
 /// For text and attributes of XML and HTML; XML has no control characters.
-std::string escaped(std::string_view text) {
-    std::string printable(text);
+std::string printable(std::string_view text) {
+    std::string line(text);
     std::ranges::replace_if(
-            printable, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; }, ' ');
-    return tools::escapedHtml(printable);
+            line, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; }, ' ');
+    return line;
 }
+std::string escaped(std::string_view text) { return tools::escapedHtml(printable(text)); }
 
 std::string imageTag(std::filesystem::path const& file, std::string const& title, const char* name) {
     const auto bytes = assets::readFileBytes(file);
     if (!bytes) return {};
-    return fmt::format("<figure><img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}"
-                       "</figcaption></figure>",
-                       name, escaped(title), tools::base64(*bytes), escaped(title));
+    return tools::figureOfPng(*bytes, printable(title), name);
 }
 
 std::string joined(std::vector<std::string> const& lines) {
