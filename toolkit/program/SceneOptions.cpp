@@ -16,16 +16,6 @@ namespace {
 
 constexpr uint32_t kMaxSide = 16384;
 
-Result<void> convertSize(SceneWords const& words, SceneOptions& options) {
-    const size_t cross = words.size.find('x');
-    const auto width = wholeNumber(words.size.substr(0, cross), 1, kMaxSide);
-    const auto height =
-            cross == std::string::npos ? std::nullopt : wholeNumber(words.size.substr(cross + 1), 1, kMaxSide);
-    if (!width || !height) return invalidOption("--size", words.size, "WIDTHxHEIGHT, each from 1 to 16384 pixels");
-    options.view.size = { *width, *height };
-    return {};
-}
-
 Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
     const auto toneMapper = enumFromName<ToneMapper>(words.toneMapper);
     if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, listed(enumNames<ToneMapper>()));
@@ -129,6 +119,15 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
 
 } // namespace
 
+Result<void> convertSize(std::string const& word, uint2& size) {
+    const size_t cross = word.find('x');
+    const auto width = wholeNumber(word.substr(0, cross), 1, kMaxSide);
+    const auto height = cross == std::string::npos ? std::nullopt : wholeNumber(word.substr(cross + 1), 1, kMaxSide);
+    if (!width || !height) return invalidOption("--size", word, "WIDTHxHEIGHT, each from 1 to 16384 pixels");
+    size = { *width, *height };
+    return {};
+}
+
 void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& options) {
     app.helpFlag("--help", "print this text");
     app.option("MODEL", words.model,
@@ -167,7 +166,8 @@ Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options)
     options.model = words.model;
     options.environment = words.environment;
     options.out = words.out;
-    for (auto convert : { convertSize, convertPicture, convertCamera, convertLight, convertQuality }) {
+    if (Result<void> done = convertSize(words.size, options.view.size); !done) return done;
+    for (auto convert : { convertPicture, convertCamera, convertLight, convertQuality }) {
         if (Result<void> done = convert(words, options); !done) return done;
     }
     return {};

@@ -55,6 +55,9 @@ struct SceneWords {
 void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& options);
 Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options);
 
+/// "640x360", the word of --size.
+Result<void> convertSize(std::string const& word, uint2& size);
+
 Camera cameraOf(SceneOptions const& options);
 
 } // namespace filament_core::tools
