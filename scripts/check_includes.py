@@ -85,7 +85,8 @@ TOOLKIT = {
     "toolkit/scenes": ["toolkit/showcase", "toolkit/materials", "toolkit/json"],
     "tools/reference": ["toolkit/program", "toolkit/machine", "toolkit/json"],  # the path tracer, and a program around it
     # bakes, and a program around them
-    "tools/bake": ["toolkit/program", "toolkit/machine", "toolkit/json", "toolkit/scenes", "tools/reference"],
+    "tools/bake": ["toolkit/program", "toolkit/machine", "toolkit/json", "toolkit/pictures", "toolkit/scenes",
+                   "tools/reference"],
 }
 # Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
 PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff",

@@ -33,7 +33,8 @@ Result<reference::ReferenceScene> loadScene(Options const& options, jobs::JobSys
     if (sky) {
         scene.environment = { .image = sky,
                               .illuminance = options.iblIntensity,
-                              .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)) };
+                              .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)),
+                              .skybox = false }; // images of the report compare surfaces
     }
     if (options.sun) scene.suns.push_back(*options.sun);
     return scene;

@@ -2,6 +2,9 @@
 #include "tools/bake/Options.h"
 
 #include "toolkit/program/CommandLine.h"
+#include "toolkit/program/SceneOptions.h"
+
+#include <cmath>
 
 namespace filament_core::bake {
 namespace {
@@ -14,7 +17,8 @@ struct Words {
     std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", maxPages = "16",
                 levels = "4", samples = "1024", error, maxBounces = "64", seed = "1", heldOut = "256", direct, shard,
                 threads;
-    std::vector<std::string> sun, exposure, merge;
+    std::string fov = "50", size = "480x272", spp = "64"; // of the report
+    std::vector<std::string> sun, exposure, merge, eye, at;
 };
 
 void declare(tools::CommandLine& app, Words& words, Options& options) {
@@ -54,6 +58,14 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
                "do not trace: write the lightmap or the grid of parts, files or folders of them")
             .typeName("FILE...");
     app.option("--out", options.out, "folder for what is written (out)");
+    app.option("--report", options.report.file,
+               "write an HTML page with every error, and with images before, after and traced")
+            .typeName("FILE.html");
+    app.option("--eye", words.eye, "X Y Z: the camera of these images (one that sees much of what was baked)").words(3);
+    app.option("--at", words.at, "X Y Z: what it looks at (the middle)").words(3);
+    app.option("--fov", words.fov, "its vertical field of view in degrees (50)");
+    app.option("--size", words.size, "size of these images (480x272)");
+    app.option("--spp", words.spp, "paths a pixel of the traced image (64)");
     app.option("--threads", words.threads, "number of tracing threads (one per core)");
 }
 
@@ -126,6 +138,30 @@ Result<void> convertLight(Words const& words, Options& options) {
     return tools::convertSwitch("--direct", words.direct, options.light.directLight);
 }
 
+/// An absent place does not change `result`.
+Result<void> convertPlace(const char* option, std::vector<std::string> const& words, std::optional<double3>& result) {
+    std::array<double, 3> place{};
+    const auto isNear = [](std::array<double, 3> const& p) {
+        return std::abs(p[0]) <= 1e12 && std::abs(p[1]) <= 1e12 && std::abs(p[2]) <= 1e12;
+    };
+    if (auto done = tools::convertNumbers(option, words, "three finite coordinates up to 1e12", place, isNear); !done)
+        return done;
+    if (!words.empty()) result = double3(place[0], place[1], place[2]);
+    return {};
+}
+
+Result<void> convertReport(Words const& words, Options& options) {
+    ReportOptions& report = options.report;
+    if (auto done = convertPlace("--eye", words.eye, report.eye); !done) return done;
+    if (auto done = convertPlace("--at", words.at, report.at); !done) return done;
+    if (report.eye && report.eye == report.at)
+        return fail(ErrorCode::InvalidArgument, "--eye and --at are the same point; look at another one");
+    if (auto done = number("--fov", words.fov, 0.01, 179, "degrees from 0.01 to 179", report.fovDegrees); !done)
+        return done;
+    if (auto done = tools::convertSize(words.size, report.size); !done) return done;
+    return whole("--spp", words.spp, 1, 1u << 20, report.samples);
+}
+
 Result<void> convertRun(Words const& words, Options& options) {
     options.merge.assign(words.merge.begin(), words.merge.end());
     if (!words.shard.empty()) {
@@ -152,7 +188,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
-    for (auto convert : { convertScene, convertLight, convertRun }) {
+    for (auto convert : { convertScene, convertLight, convertReport, convertRun }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

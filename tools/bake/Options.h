@@ -16,6 +16,15 @@
 
 namespace filament_core::bake {
 
+/// What the HTML report shows (page/BakePage.h).
+struct ReportOptions {
+    std::filesystem::path file;     ///< empty: no report
+    std::optional<double3> eye, at; ///< none: one that sees much of what was baked; the middle of it
+    float fovDegrees = 50;
+    uint2 size{ 480, 272 };
+    uint32_t samples = 64; ///< of a pixel of the traced image
+};
+
 struct Options {
     std::filesystem::path model;
     std::filesystem::path environment; ///< empty: the model's own; "none": none
@@ -30,6 +39,7 @@ struct Options {
     std::optional<tools::Shard> shard;        ///< bake this part alone, into a journal
     std::vector<std::filesystem::path> merge; ///< journals of parts; empty: bake
     std::filesystem::path out = "out";
+    ReportOptions report{};
     int workers = -1; ///< as JobSystemOptions::workers
 };
 

@@ -128,26 +128,29 @@ std::string sentenceOf(HeldOutReport const& heldOut) {
                               kBoundShare * 100, kBoundConfidence * 100, *heldOut.interpolationLux)
                     : std::string("They are too few to bound the error between texels.");
     return fmt::format("{} points of lit surfaces were traced for comparison alone. {} The root mean square of their "
-                       "errors is {:.4g} lux, the largest {:.4g} lux at texel {:.1f}, {:.1f}.\n\n",
+                       "errors is {:.4g} lux, the largest {:.4g} lux at texel {:.1f}, {:.1f}.",
                        heldOut.points, bound, heldOut.rmsLux, heldOut.worstLux, heldOut.worstPlace.x,
                        heldOut.worstPlace.y);
 }
 
-std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vector<ChartSummary> const& charts,
-                   HeldOutReport const& heldOut) {
-    const ChartSummary whole = wholeOf(charts);
-    std::string page = fmt::format(
-            "# Lightmap\n\n{} charts with {} texels in {} x {} on {} {} with {} {}, {:.4g} texels "
-            "a metre; {:.0f} samples a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of "
-            "surfaces and were filled from their neighbours.\n\n",
-            charts.size(), whole.texels, image.side, image.side, image.pages, image.pages == 1 ? "page" : "pages",
-            bake.atlas.levels, bake.atlas.levels == 1 ? "level" : "levels", bake.atlas.texelsPerMeter, whole.samples,
-            whole.meanLux, whole.relativeError * 100, whole.hidden);
+std::string sentenceOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
+    ChartSummary const& whole = report.whole;
+    return fmt::format("{} charts with {} texels in {} x {} on {} {} with {} {}, {:.4g} texels a metre; {:.0f} samples "
+                       "a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of surfaces and were "
+                       "filled from their neighbours.",
+                       report.charts.size(), whole.texels, image.side, image.side, image.pages,
+                       image.pages == 1 ? "page" : "pages", bake.atlas.levels,
+                       bake.atlas.levels == 1 ? "level" : "levels", bake.atlas.texelsPerMeter, whole.samples,
+                       whole.meanLux, whole.relativeError * 100, whole.hidden);
+}
+
+std::string pageOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
+    std::vector<ChartSummary> const& charts = report.charts;
+    std::string page = fmt::format("# Lightmap\n\n{}\n\n", sentenceOf(bake, image, report));
     for (uint32_t i = 0; i < image.pages; ++i)
         page += fmt::format("![lightmap]({}) ![standard error]({})\n\n", pictureName("lightmap", i),
                             pictureName("error", i));
-    page += tableOf(summarizePages(bake.atlas, bake.texels));
-    page += sentenceOf(heldOut);
+    page += tableOf(summarizePages(bake.atlas, bake.texels)) + sentenceOf(report.heldOut) + "\n\n";
     page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
             "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
     std::vector<uint32_t> order;
@@ -159,18 +162,6 @@ std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vecto
         page += fmt::format("| {} | {} | {} | {:.0f} | {:.4g} | {:.2f} % |\n", nameOf(bake, i), charts[i].texels,
                             charts[i].hidden, charts[i].samples, charts[i].meanLux, charts[i].relativeError * 100);
     return page;
-}
-
-std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux) {
-    std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * bake.atlas.pages * 4, std::byte{ 0 });
-    for (size_t i = 0; i < bake.texels.size(); ++i) {
-        const double error = luminanceOf(lights[i].standardError) / std::max(meanLux, 1e-30);
-        const auto code = static_cast<std::byte>(std::lround(std::min(error * 10, 1.0) * 255));
-        const size_t at = (size_t(bake.texels[i].y) * bake.atlas.side + bake.texels[i].x) * 4;
-        pixels[at] = pixels[at + 1] = pixels[at + 2] = code;
-    }
-    for (size_t i = 3; i < pixels.size(); i += 4) pixels[i] = std::byte{ 255 };
-    return pixels;
 }
 
 } // namespace
@@ -201,14 +192,36 @@ std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTex
     return charts;
 }
 
+std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux) {
+    std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * bake.atlas.pages * 4, std::byte{ 0 });
+    for (size_t i = 0; i < bake.texels.size(); ++i) {
+        const double error = luminanceOf(lights[i].standardError) / std::max(meanLux, 1e-30);
+        const auto code = static_cast<std::byte>(std::lround(std::min(error * 10, 1.0) * 255));
+        const size_t at = (size_t(bake.texels[i].y) * bake.atlas.side + bake.texels[i].x) * 4;
+        pixels[at] = pixels[at + 1] = pixels[at + 2] = code;
+    }
+    for (size_t i = 3; i < pixels.size(); i += 4) pixels[i] = std::byte{ 255 };
+    return pixels;
+}
+
+LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image) {
+    LightmapReport report{ .charts = summarize(bake.atlas, bake.texels, lights), .whole = {}, .heldOut = {} };
+    report.whole = wholeOf(report.charts);
+    std::vector<double> errors;
+    for (ChartSummary const& chart : report.charts) errors.push_back(chart.errorLux());
+    report.heldOut =
+            compareHeldOut(bake.heldOut, lights.subspan(bake.texels.size()), halvesOf(image), image.intensity, errors);
+    return report;
+}
+
+std::string summaryOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
+    return sentenceOf(bake, image, report) + "\n" + sentenceOf(report.heldOut);
+}
+
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                          LightmapImage const& image) {
-    const std::vector<ChartSummary> charts = summarize(bake.atlas, bake.texels, lights);
-    const ChartSummary whole = wholeOf(charts);
-    std::vector<double> errors;
-    for (ChartSummary const& chart : charts) errors.push_back(chart.errorLux());
-    const HeldOutReport heldOut =
-            compareHeldOut(bake.heldOut, lights.subspan(bake.texels.size()), halvesOf(image), image.intensity, errors);
+    const LightmapReport numbers = reportOf(bake, lights, image);
+    ChartSummary const& whole = numbers.whole;
     uint64_t rays = 0;
     for (TexelLight const& light : lights) rays += light.rays;
     const Json report{ { "model", options.model.filename().string() },
@@ -225,12 +238,12 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
                        { "samples", whole.samples },
                        { "meanLux", whole.meanLux },
                        { "relativeError", whole.relativeError },
-                       { "heldOut", heldOutToJson(heldOut) },
+                       { "heldOut", heldOutToJson(numbers.heldOut) },
                        { "rays", rays },
                        { "warnings", bake.warnings },
-                       { "charts", chartsToJson(bake, charts) } };
+                       { "charts", chartsToJson(bake, numbers.charts) } };
     if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
-    const std::string page = pageOf(bake, image, charts, heldOut);
+    const std::string page = pageOf(bake, image, numbers);
     if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
     if (auto done = writePictures(options, "lightmap", image, previewOf(image)); !done) return done;
     return writePictures(options, "error", image, errorPicture(bake, lights, whole.meanLux));

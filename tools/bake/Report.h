@@ -23,7 +23,20 @@ struct ChartSummary {
 std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTexel> texels,
                                     std::span<const TexelLight> lights);
 
+/// What a report says in numbers.
+struct LightmapReport {
+    std::vector<ChartSummary> charts;
+    ChartSummary whole; ///< of all of them
+    HeldOutReport heldOut;
+};
 /// `lights`: of the texels, then of the held-out points.
+LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image);
+/// A few lines.
+std::string summaryOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report);
+/// RGBA8 of the texels' standard errors; white is a tenth of `meanLux`.
+std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux);
+
+/// `lights`: as of reportOf().
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                          LightmapImage const& image);
 

@@ -10,6 +10,7 @@
 #include "tools/bake/GridTrace.h"
 #include "tools/bake/Journal.h"
 #include "tools/bake/Report.h"
+#include "tools/bake/page/BakePage.h"
 #include "tools/reference/TracedScene.h"
 
 #include <algorithm>
@@ -91,7 +92,8 @@ int finishedPart(Options const& options, RecordRange range, size_t all) {
     return 0;
 }
 
-int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights) {
+int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+                  jobs::JobSystem& jobs) {
     const auto texels = lights.first(bake.texels.size());
     const LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
     LightmapEntry entry{ {}, image.intensity, options.light.directLight };
@@ -103,6 +105,9 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     const std::filesystem::path path = options.out / "baked.glb";
     if (auto done = assets::replaceFile(path, *file); !done) return failed(done.error());
     if (auto done = writeReport(options, bake, lights, image); !done) return failed(done.error());
+    if (!options.report.file.empty()) {
+        if (auto done = writeLightmapPage(options, bake, lights, image, path, jobs); !done) return failed(done.error());
+    }
     for (std::string const& warning : bake.warnings) tools::printWarning(warning);
     const bool isDark =
             std::ranges::all_of(texels, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
@@ -125,7 +130,7 @@ int bakeLightmap(Options const& options, jobs::JobSystem& jobs) {
     const size_t all = bake->traced();
     if (!options.merge.empty()) {
         const auto records = mergeJournals(options.merge, { bake->hash, { 0, all }, sizeof(TexelLight) });
-        return records ? writeLightmap(options, *bake, valuesOf<TexelLight>(*records)) : failed(records.error());
+        return records ? writeLightmap(options, *bake, valuesOf<TexelLight>(*records), jobs) : failed(records.error());
     }
     const tools::StopOnInterrupt scope;
     const tools::Shard shard = options.shard.value_or(tools::Shard{});
@@ -134,10 +139,16 @@ int bakeLightmap(Options const& options, jobs::JobSystem& jobs) {
     if (!journal) return failed(journal.error());
     if (!journal->isComplete()) return interrupted(options);
     if (options.shard) return finishedPart(options, range, all);
-    const int status = writeLightmap(options, *bake, valuesOf<TexelLight>(journal->records()));
+    const int status = writeLightmap(options, *bake, valuesOf<TexelLight>(journal->records()), jobs);
     std::error_code ignored;
     if (status == 0) std::filesystem::remove(options.out / kJournalName, ignored);
     return status;
+}
+
+Result<void> writeGridAndPage(Options const& options, GridInput const& input, BakedGrid const& baked,
+                              jobs::JobSystem& jobs) {
+    if (Result<void> written = writeGrid(baked, options.out); !written || options.report.file.empty()) return written;
+    return writeGridPage(options, *input.scene, baked, jobs);
 }
 
 /// Of a grid: a part, or all up to the first grid within the bound, which is written.
@@ -163,7 +174,7 @@ int traceGrid(Options const& options, GridInput const& input, jobs::JobSystem& j
     }
     if (options.shard) return journal->isComplete() ? finishedPart(options, range, trace.size()) : interrupted(options);
     if (!baked) return interrupted(options);
-    const Result<void> written = writeGrid(*baked, options.out);
+    const Result<void> written = writeGridAndPage(options, input, *baked, jobs);
     if (!written) return failed(written.error());
     std::error_code ignored;
     std::filesystem::remove(options.out / kJournalName, ignored);
@@ -182,7 +193,8 @@ int bakeGrid(Options const& options, jobs::JobSystem& jobs) {
     const GridTrace trace(*input->scene, input->settings);
     const auto records = mergeJournals(options.merge, { input->hash, { 0, trace.size() }, trace.recordBytes() });
     if (!records) return failed(records.error());
-    const Result<void> written = writeGrid(*gridOfRecords(*input->scene, input->settings, *records), options.out);
+    const std::optional<BakedGrid> baked = gridOfRecords(*input->scene, input->settings, *records);
+    const Result<void> written = writeGridAndPage(options, *input, *baked, jobs);
     return written ? 0 : failed(written.error());
 }
 
