@@ -173,6 +173,8 @@ struct Renderer::Impl final : engine::Dependent {
         effects.resolution.scale = shares.scale(effects.resolution);
         prepare::ViewInput input = prepare::viewInput(view, effects, contentsOf(scene));
         input.maxTextureSize = engine.device.maxTextureSize;
+        input.darkLights = scene.impl().dark.lights;
+        input.darkEnvironment = scene.impl().dark.environment;
         const auto looksBeside = [&] {
             return prepare::looksBesidePicture(scene.impl().upToDate(), input.quality, effects);
         };

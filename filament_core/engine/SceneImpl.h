@@ -84,6 +84,12 @@ struct Scene::Impl {
     mutable uint64_t boundsChanges = 0;   ///< of the engine, that `followed` have seen
     uint64_t changes = 0;                 ///< by the app
     engine::CopiesOfModels copies;
+    /// Of the frames that are drawn meanwhile: members of prepare::ViewInput. renderShares() sets and resets it.
+    struct Dark {
+        std::span<const uint8_t> lights{};
+        bool environment = false;
+    };
+    mutable Dark dark{};
     std::vector<Light> environmentLights; ///< that setEnvironment() added
 };
 

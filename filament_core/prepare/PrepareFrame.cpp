@@ -2,6 +2,7 @@
 #include "filament_core/prepare/PrepareFrame.h"
 
 #include "filament_core/prepare/CoveredPixels.h"
+#include "filament_core/prepare/DarkLights.h"
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/HideOccluded.h"
@@ -188,6 +189,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     const ProbePacket probes = probesOf(jobs, arena, scene, main, heldProbes, asked[0].packet);
     const GridPacket grids = findGrids(arena, scene, main, asked[0].packet);
+    for (size_t i = 0; i < views.size(); ++i) darken(arena, scene, drawn[i], asked[i]);
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/SunDiscs.h"
 
 #include "base/math/Elementary.h"
+#include "filament_core/prepare/DarkLights.h"
 #include "filament_core/prepare/ViewConstants.h"
 
 #include <algorithm>
@@ -99,8 +100,11 @@ SunDiscs findSunDiscs(Arena& arena, scene::Lights const& lights, ViewInput const
     for (LightRecord const& light : lights.records) {
         if (!hasDisc(light)) continue;
         const double tangent = std::max(static_cast<double>(light.sourceRadius), kSmallestRadius);
-        if (mayBeSeen(space, -light.directionWorld, outerRadius(light, tangent)))
-            discs[seen++] = discOf(light, space, view);
+        if (!mayBeSeen(space, -light.directionWorld, outerRadius(light, tangent))) continue;
+        discs[seen] = discOf(light, space, view);
+        if (isDark(view, static_cast<size_t>(&light - lights.records.data())))
+            discs[seen].light = float4(0, 0, 0, discs[seen].light.w);
+        ++seen;
     }
     return { discs.first(seen), static_cast<uint32_t>(count - seen) };
 }

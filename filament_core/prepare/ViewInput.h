@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace filament_core::prepare {
 
@@ -63,7 +64,10 @@ struct ViewInput {
     DebugView debugView = DebugView::None;
     bool givesNumbers = false;         ///< of debugView, instead of its colours: View::aov
     Layers visibleLayers = kAllLayers; ///< of renderables
-    uint64_t contents = 0;             ///< another number whenever the app changed the scene or a material
+    /// Not 0: that light of the scene, by its record, is as any other, but dark (DarkLights.h). None: all shine.
+    std::span<const uint8_t> darkLights{};
+    bool darkEnvironment = false; ///< the light of the environment, probes and grids is 0; the sky stays
+    uint64_t contents = 0;        ///< another number whenever the app changed the scene or a material
 
     uint2 inside() const { return size - 2u * band; } ///< pixels of the image that are drawn
     uint2 shown() const { return shownSize.x > 0 ? shownSize : inside(); }
