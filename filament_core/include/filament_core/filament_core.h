@@ -19,6 +19,7 @@
 #include <filament_core/Environment.h>
 #include <filament_core/EnvironmentFormat.h>
 #include <filament_core/EnvironmentLights.h>
+#include <filament_core/ExplainPixel.h>
 #include <filament_core/Gltf.h>
 #include <filament_core/Image.h>
 #include <filament_core/IrradianceGrid.h>
@@ -52,6 +53,7 @@
 #include <filament_core/Result.h>
 #include <filament_core/Scene.h>
 #include <filament_core/SceneFile.h>
+#include <filament_core/Shares.h>
 #include <filament_core/Sky.h>
 #include <filament_core/SkyDesc.h>
 #include <filament_core/Splats.h>

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament_core/ExplainPixel.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <type_traits>
+
+namespace filament_core {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+template <class Vector>
+Json vectorJson(Vector const& vector) {
+    Json list = Json::array();
+    for (int i = 0; i < Vector::length(); ++i) list.push_back(numberJson(static_cast<double>(vector[i])));
+    return list;
+}
+
+template <class Value>
+void addIfThere(Json& object, const char* name, std::optional<Value> const& value) {
+    if (!value) return;
+    if constexpr (std::is_same_v<Value, float>)
+        object[name] = numberJson(static_cast<double>(*value));
+    else
+        object[name] = vectorJson(*value);
+}
+
+Json surfaceJson(PixelSurface const& surface) {
+    Json object{ { "object", surface.object },
+                 { "isLight", static_cast<bool>(surface.light) },
+                 { "primitive", surface.primitive },
+                 { "material", surface.material },
+                 { "instance", surface.instance },
+                 { "distanceMeters", numberJson(surface.distanceMeters) },
+                 { "positionWorld", vectorJson(surface.positionWorld) } };
+    addIfThere(object, "normal", surface.normal);
+    addIfThere(object, "geometricNormal", surface.geometricNormal);
+    addIfThere(object, "baseColor", surface.baseColor);
+    addIfThere(object, "roughness", surface.roughness);
+    addIfThere(object, "metallic", surface.metallic);
+    addIfThere(object, "occlusion", surface.occlusion);
+    addIfThere(object, "emissive", surface.emissive);
+    return object;
+}
+
+std::string jsonOf(PixelExplanation const& explanation) {
+    Json terms = Json::array();
+    for (PixelTerm const& term : explanation.terms)
+        terms.push_back({ { "kind", toString(term.term.kind) },
+                          { "name", term.term.name },
+                          { "value", vectorJson(term.value) } });
+    Json object{ { "pixel", { explanation.pixel.x, explanation.pixel.y } },
+                 { "value", vectorJson(explanation.value) },
+                 { "terms", std::move(terms) } };
+    if (explanation.surface) object["surface"] = surfaceJson(*explanation.surface);
+    return object.dump(2, ' ', false, Json::error_handler_t::replace); // names may be no UTF-8
+}
+
+} // namespace
+
+std::string toJson(PixelExplanation const& explanation) { return jsonOf(explanation); }
+
+} // namespace filament_core

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// explainPixel(): why a pixel has its colour: light by light, effect by effect, and the surface that it shows.
+/// docs/shares.md, "One pixel".
+///   Sum     terms in doubles add up to the half floats of the pixel exactly, before tone mapping (Shares.h).
+///   Thread  the app thread, which waits for the pixels. Not while a frame is drawn.
+///   Memory  a few hundred bytes; what renderers take is given back.
+///   Cost    a frame for each term, one for each number of the surface, and a pick. Other frames: none.
+#pragma once
+
+#include <filament_core/Aov.h>
+#include <filament_core/Shares.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace filament_core {
+
+struct PixelTerm {
+    ShareTerm term;
+    double4 value{ 0 }; ///< red, green, blue, alpha; pre-exposed linear light
+};
+
+/// Of the nearest surface at the pixel's centre. Numbers that its material does not have are missing.
+struct PixelSurface {
+    Renderable renderable{}; ///< none: a light that is drawn
+    Light light{};
+    std::string object;        ///< name of the nearest node with a name, upwards; may be empty
+    uint32_t primitive = 0;    ///< as in PickHit
+    std::string material;      ///< name of the material's file
+    std::string instance;      ///< name of the material instance
+    double distanceMeters = 0; ///< along the view
+    double3 positionWorld{ 0 };
+    std::optional<float3> normal, geometricNormal; ///< in the world, unit
+    std::optional<float3> baseColor;               ///< linear Rec. 709; pre-multiplied by alpha where it blends
+    std::optional<float> roughness, metallic, occlusion;
+    std::optional<float3> emissive; ///< pre-exposed
+};
+
+struct PixelExplanation {
+    uint2 pixel{ 0 };
+    double4 value{ 0 }; ///< of the picture: the sum of the terms
+    std::vector<PixelTerm> terms;
+    std::optional<PixelSurface> surface; ///< none: nothing is drawn there
+};
+
+/// `pixel`: from the left and from the top of the view, below View::size. By default light by light, then effect by
+/// effect. The view is as renderShares() takes it, and fails as there.
+Result<PixelExplanation> explainPixel(Engine& engine, Scene const& scene, View const& view, uint2 pixel,
+                                      ShareOptions const& options = { .terms = ShareTerms::All });
+
+/// One object; docs/shares.md has its members. Infinities and NaN are null.
+std::string toJson(PixelExplanation const& explanation);
+
+} // namespace filament_core
