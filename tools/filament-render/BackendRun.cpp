@@ -119,6 +119,7 @@ public:
     /// With --budget: measures frames with the requested settings, and continues with the settings that fit.
     Result<void> fitBudget(BackendRun& run);
     Result<void> drawAovs(BackendRun& run);
+    Result<void> drawShares(BackendRun& run);
     Result<void> measureCosts(BackendRun& run);
     void drawFirst(BackendRun& run);
     void drawOthers(BackendRun& run);
@@ -320,6 +321,26 @@ Result<void> Stage::drawAovs(BackendRun& run) {
     return {};
 }
 
+Result<void> Stage::drawShares(BackendRun& run) {
+    View view = mView;
+    view.debugView = DebugView::None;
+    ShareOptions shares{ .frames = std::min(mOptions.frames, ShareOptions::kMostFrames) };
+    if (mOptions.shares) {
+        showProgress(fmt::format("{}: shares", fileStem(run.backend)));
+        shares.terms = *mOptions.shares;
+        Result<Shares> drawn = renderShares(mEngine, mScene, view, shares);
+        if (!drawn) return drawn.error();
+        run.shares = std::move(*drawn);
+    }
+    if (!mOptions.explainPixel) return {};
+    showProgress(fmt::format("{}: explaining a pixel", fileStem(run.backend)));
+    shares.terms = ShareTerms::All;
+    Result<PixelExplanation> explained = explainPixel(mEngine, mScene, view, *mOptions.explainPixel, shares);
+    if (!explained) return explained.error();
+    run.explained = std::move(*explained);
+    return {};
+}
+
 Result<void> Stage::measureCosts(BackendRun& run) {
     if (mOptions.measureCosts.empty()) return {};
     showProgress(fmt::format("{}: measuring quality choices", fileStem(run.backend)));
@@ -417,6 +438,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     if (!image) return image.error();
     run.image = std::move(*image);
     if (Result<void> drawn = stage.drawAovs(run); !drawn) return drawn.error();
+    if (Result<void> drawn = stage.drawShares(run); !drawn) return drawn.error();
     run.timings = stage.renderer().takeTimings();
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();

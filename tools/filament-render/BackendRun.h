@@ -12,6 +12,7 @@
 #include "tools/filament-render/Options.h"
 
 #include <filament_core/EnvironmentLights.h>
+#include <filament_core/ExplainPixel.h>
 #include <filament_core/QualityBudget.h>
 #include <filament_core/Renderer.h>
 
@@ -38,7 +39,9 @@ struct BackendRun {
     Backend backend = Backend::Null;
     DeviceDescription device{};
     Image image{};
-    std::vector<Image> aovs{}; ///< by Options::aovs
+    std::vector<Image> aovs{};                   ///< by Options::aovs
+    std::optional<Shares> shares{};              ///< of Options::shares
+    std::optional<PixelExplanation> explained{}; ///< of Options::explainPixel
     std::string modelName;
     bool usesModelEnvironment = false; ///< the model's own, instead of a file
     EnvironmentLights lights{};        ///< of the environment

@@ -19,7 +19,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook, saveFrame, skyAltitude, aovs;
+                saveLook, saveFrame, skyAltitude, aovs, shares, explainPixel;
     std::vector<std::string> values, sky;
 };
 
@@ -152,6 +152,25 @@ Result<void> convertAovs(Words const& words, Options& options) {
     return {};
 }
 
+Result<void> convertShares(Words const& words, Options& options) {
+    options.shares = enumFromName<ShareTerms>(words.shares);
+    if (!words.shares.empty() && !options.shares)
+        return invalidOption("--shares", words.shares, listed(enumNames<ShareTerms>()));
+    if (words.explainPixel.empty()) return {};
+    const size_t comma = words.explainPixel.find(',');
+    const auto number = [&](size_t begin, size_t end, uint32_t size) {
+        return wholeNumber(words.explainPixel.substr(begin, end), 0, size - 1);
+    };
+    const uint2 size = options.view.size;
+    const auto x = number(0, comma, size.x);
+    const auto y = comma == std::string::npos ? std::nullopt : number(comma + 1, std::string::npos, size.y);
+    if (!x || !y)
+        return invalidOption("--explain-pixel", words.explainPixel,
+                             fmt::format("X,Y from the left and from the top, below {},{}", size.x, size.y));
+    options.explainPixel = uint2(*x, *y);
+    return {};
+}
+
 Result<void> convertTime(Words const& words, Options& options) {
     options.animation = words.animation;
     if (words.time.empty()) return {};
@@ -181,6 +200,12 @@ void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--aovs", words.aovs,
                fmt::format("NAMES, separated by commas: the layers of DIR/API.aovs.exr in full floats: {}",
                            listed(enumNames<Aov>().subspan(1))));
+    app.option("--shares", words.shares,
+               "lights, effects or all: what each light and each effect adds to the picture before the tone mapper, as "
+               "layers of DIR/API.shares.exr that add up to its bits");
+    app.option("--explain-pixel", words.explainPixel,
+               "X,Y: print what each light and each effect adds to this pixel, and its surface; also to "
+               "DIR/API.pixel.json");
     app.option("--save-look", words.saveLook,
                "FILE.cube: write grading, tone mapper and look as a cube for other programs");
     app.flag("--timing", options.timing, "print the time taken by start-up and frames");
@@ -229,7 +254,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (argc > 1) options.arguments.assign(argv + 1, argv + argc);
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
     for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertAovs,
-                          convertTime, convertSky }) {
+                          convertShares, convertTime, convertSky }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

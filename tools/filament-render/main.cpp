@@ -16,6 +16,7 @@
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/filament-render/SaveFrame.h"
+#include "tools/filament-render/ShareFiles.h"
 
 #include <filament_core/Look.h>
 
@@ -69,6 +70,7 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
                                            : savePng(path, run->image, options.view.display.outputSpace);
         const Result<void> savedAovs = saveAovs(options, *run);
         if (!savedAovs) note(savedAovs.error().message);
+        if (const Result<void> savedShares = saveShares(options, *run); !savedShares) note(savedShares.error().message);
         if (!saved)
             note(saved.error().message);
         else
@@ -134,8 +136,10 @@ int render(Options const& options) {
             errors.push_back(compared.error().message);
         const AovComparison aovs = compareAovs(options, runs[0], runs[1]);
         if (!aovs.line.empty()) std::printf("%s\n", aovs.line.c_str());
-        hasSameAovs = aovs.same;
+        hasSameAovs = aovs.same && hasSameShares(runs[0], runs[1]);
+        if (!hasSameShares(runs[0], runs[1])) std::printf("shares differ between the APIs\n");
     }
+    if (!runs.empty() && runs.front().explained) std::fputs(textOf(*runs.front().explained).c_str(), stdout);
     for (BackendRun const& run : runs) {
         if (options.explain) std::printf("%s\n%s\n", fileStem(run.backend), run.explanation.c_str());
         if (options.timing) std::fputs(timingText(run).c_str(), stdout);

@@ -83,6 +83,15 @@ TEST(Options, DebugViewsAreSetByName) {
     EXPECT_THAT(refused({ "--set", "debugView=brightness" }), HasSubstr(listed(enumNames<DebugView>())));
 }
 
+TEST(Options, SharesAndAnExplainedPixelAreInThePicture) {
+    EXPECT_FALSE(parsed({}).shares || parsed({}).explainPixel);
+    EXPECT_EQ(parsed({ "--shares", "effects" }).shares, ShareTerms::Effects);
+    EXPECT_THAT(refused({ "--shares", "lamps" }), HasSubstr("lights, effects or all"));
+    EXPECT_EQ(parsed({ "--size", "64x32", "--explain-pixel", "63,31" }).explainPixel, uint2(63, 31));
+    for (const char* words : { "64,0", "3", "3,", "3,32", "-1,0", "1,2,3" })
+        EXPECT_THAT(refused({ "--size", "64x32", "--explain-pixel", words }), HasSubstr("below 64,32")) << words;
+}
+
 TEST(Options, AovsAreNamesEachOnce) {
     EXPECT_TRUE(parsed({}).aovs.empty());
     EXPECT_EQ(parsed({ "--aovs", "normal,depth" }).aovs, (std::vector{ Aov::Normal, Aov::Depth }));
