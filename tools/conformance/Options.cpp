@@ -19,7 +19,7 @@ struct Words {
     std::string scenes = tools::sourceDir() / "tests/conformance/scenes";
     std::string baselines = tools::sourceDir() / "tests/conformance/baselines.json";
     std::string assets = tools::assetDir();
-    std::string out = "conformance", shard = "0/1", shuffle, threads, mutations, pictures = "all";
+    std::string out = "conformance", shard = "0/1", shuffle, threads, mutations, shares = "off", pictures = "all";
     std::vector<std::string> backends, machines, merge, set;
     std::string journal, against, random = "0", seed = "1", reduce;
 };
@@ -45,6 +45,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--require-device", options.requireDevice, "part of the device's name").typeName("NAME");
     app.option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies").typeName("on|off");
     app.option("--mutations", words.mutations, "check that injected defects are detected").typeName("on|off");
+    app.option("--shares", words.shares, "also check that the shares of lights and effects add up to each picture")
+            .typeName("on|off");
     app.option("--pictures", words.pictures, "all, or failed: leave out those of cases that passed")
             .typeName("all|failed");
     app.option("--machines", words.machines,
@@ -141,6 +143,7 @@ Result<void> convert(Words const& words, Options& options) {
     if (auto done = convertMachines(words.machines, options); !done) return done;
     if (auto done = tools::convertSwitch("--threads", words.threads, options.threads); !done) return done;
     if (auto done = tools::convertSwitch("--mutations", words.mutations, options.mutations); !done) return done;
+    if (auto done = tools::convertSwitch("--shares", words.shares, options.shares); !done) return done;
     if (words.pictures != "all" && words.pictures != "failed")
         return invalidOption("--pictures", words.pictures, "all or failed");
     options.passedPictures = words.pictures == "all";

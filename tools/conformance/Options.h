@@ -28,6 +28,7 @@ struct Options {
     tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;
+    bool shares = false;               ///< also check that shares of lights and effects add up (ShareCheck.h)
     bool passedPictures = true;        ///< --pictures failed: none of cases that passed
     std::vector<std::string> machines; ///< simulated machines (Machines.h) whose child processes draw the cases again
     std::filesystem::path program;     ///< what they run: this program

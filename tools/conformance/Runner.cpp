@@ -53,8 +53,8 @@ struct Actor {
 /// Draws one case in all configurations and fills in its result.
 class CaseRun {
 public:
-    CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec)
-            : mOptions(options), mActors(actors), mSpec(spec) {
+    CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec, ShareTally& shares)
+            : mOptions(options), mActors(actors), mSpec(spec), mShares(shares) {
         mResult.name = spec.name;
     }
 
@@ -67,6 +67,7 @@ public:
         if (drawReference()) {
             checkBaseline(baselines);
             for (size_t i = 1; i < mActors.size(); ++i) compareWith(mActors[i]);
+            if (mOptions.shares) addUpShares();
             if (mOptions.mutations) killMutants();
         }
         mResult.status = mResult.reasons.empty() ? Status::Passed : Status::Failed;
@@ -146,6 +147,22 @@ private:
         blame(actor.configuration.name, where);
     }
 
+    /// With one number of workers for each API.
+    void addUpShares() {
+        std::optional<uint64_t> hash;
+        for (Actor& actor : mActors) {
+            if (!actor.configuration.stage.capture) continue;
+            const std::string& who = actor.configuration.name;
+            Result<ShareVerdict> verdict = actor.stage->shares();
+            if (!verdict) return blame(who, verdict.error().message);
+            for (std::string const& fault : verdict->faults) blame(who, fault);
+            if (hash && *hash != verdict->hash && mSpec.comparator.kind == ComparatorKind::Bits)
+                blame(who, "shares differ from those of " + mActors[0].configuration.name);
+            hash = verdict->hash;
+            mShares += verdict->tally;
+        }
+    }
+
     void killMutants() {
         if (mSpec.kills.empty()) return;
         tryMutant(std::string(kNoDefect));
@@ -187,6 +204,7 @@ private:
     Options const& mOptions;
     std::vector<Actor>& mActors;
     SceneSpec const& mSpec;
+    ShareTally& mShares;
     Shot mReference;
     CaseResult mResult;
 };
@@ -245,6 +263,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
         results.devices[toString(actor.stage->device().backend)] =
                 actor.stage->device().device + ", " + actor.stage->device().driver;
     Journal journal(options.journal);
+    ShareTally shares;
     journal.devices(results.devices);
     for (size_t i = 0; i < cases.size() && !tools::isInterrupted(); ++i) {
         if (options.fresh && i > 0) {
@@ -255,7 +274,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
         showCase(i, cases.size(), cases[i].name);
         journal.begins(cases[i].name);
         const auto start = std::chrono::steady_clock::now();
-        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
+        results.cases.push_back(CaseRun(options, *actors, cases[i], shares).run(*baselines));
         results.seconds[cases[i].name] =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         journal.ends(results.cases.back());
@@ -263,6 +282,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
         for (std::string const& reason : results.cases.back().reasons)
             std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
     }
+    if (options.shares) std::printf("%s\n", shares.line().c_str());
     std::ranges::sort(results.cases, {}, &CaseResult::name); // however they were shuffled
     if (options.updateBaselines && !tools::isInterrupted()) {
         if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();

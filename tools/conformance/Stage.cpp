@@ -137,6 +137,12 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
     return shot;
 }
 
+Result<ShareVerdict> Stage::shares() {
+    settleTextures();
+    setBack(0);
+    return checkShares(mEngine, mShown->scene, mView, mSpec.frames);
+}
+
 DefectReach Stage::reach() {
     if (!mTrace) return {};
     mEngine.waitIdle();

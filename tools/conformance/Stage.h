@@ -10,6 +10,7 @@
 #include "toolkit/mutations/DefectTrace.h"
 #include "toolkit/record/Bisect.h"
 #include "toolkit/scenes/ShownScene.h"
+#include "tools/conformance/ShareCheck.h"
 
 #include <filament_core/Renderer.h>
 
@@ -52,6 +53,8 @@ public:
     Result<void> set(SceneSpec const& spec);
     /// Draws the case's frames and returns the last one.
     Result<Shot> shoot(std::optional<backend::CaptureRequest> const& request = {});
+    /// Of the case's last frame, drawn as often as the case has frames.
+    Result<ShareVerdict> shares();
     /// How far `edit` came since set(). Waits for the device. Without one: nowhere.
     DefectReach reach();
 
