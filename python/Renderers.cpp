@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rendering to arrays, and what frames needed.
 #include "python/Bindings.h"
+#include "python/SceneParts.h"
 
+#include <filament_core/ExplainPixel.h>
 #include <filament_core/RenderAovs.h>
+
+#include <algorithm>
 
 #include <map>
 #include <optional>
@@ -110,17 +114,23 @@ std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
     return aovs;
 }
 
-py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
-                      std::vector<std::string> const& names) {
-    Owner& owner = *engine.owner;
-    const Owner::Call call(owner);
-    requireSame(owner, scene, "scene");
+/// Of light or of surfaces, in an image that the device can draw.
+View plainViewOf(ViewObject const& view, Owner const& owner) {
     View settings = viewOf(view, owner);
     settings.debugView = DebugView::None;
     const uint32_t most = owner.device().maxTextureSize;
     if (settings.size.x > most || settings.size.y > most)
         raiseInvalid("size: {} x {} pixels, but the device draws at most {} a side", settings.size.x, settings.size.y,
                      most);
+    return settings;
+}
+
+py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
+                      std::vector<std::string> const& names) {
+    Owner& owner = *engine.owner;
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    const View settings = plainViewOf(view, owner);
     const std::vector<Aov> aovs = aovsOf(names);
     const Scene& content = *scene;
     Result<std::vector<Image>> drawn = released([&] { return renderAovs(call.engine(), content, settings, aovs); });
@@ -129,6 +139,83 @@ py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, View
     py::dict arrays;
     for (size_t i = 0; i < images.size(); ++i) arrays[py::str(names[i])] = arrayOf(images[i]);
     return arrays;
+}
+
+using LightsByName = std::map<std::string, std::vector<std::shared_ptr<LightObject>>>;
+
+std::vector<LightGroup> groupsOf(SceneObject const& scene, LightsByName const& named) {
+    std::vector<LightGroup> groups;
+    for (auto const& [name, lights] : named) {
+        LightGroup group{ .name = name };
+        for (std::shared_ptr<LightObject> const& light : lights) {
+            if (!light) raiseInvalid("groups: '{}' has a light that is None", name);
+            if (light->scene.get() != &scene) raiseInvalid("groups: '{}' has a light of another scene", name);
+            group.lights.push_back(light->live());
+        }
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+ShareOptions shareOptionsOf(std::string const& terms, int64_t frames) {
+    const std::optional<ShareTerms> known = enumFromName<ShareTerms>(terms);
+    if (!known) raiseInvalid("terms: '{}' is not {}", terms, listed(enumNames<ShareTerms>()));
+    if (frames < 1 || frames > int64_t{ ShareOptions::kMostFrames })
+        raiseInvalid("frames: {} is not from 1 to {}", frames, ShareOptions::kMostFrames);
+    return { .terms = *known, .frames = static_cast<uint32_t>(frames) };
+}
+
+py::array arrayOfShare(Shares const& shares, size_t term) {
+    const std::array<py::ssize_t, 3> shape{ static_cast<py::ssize_t>(shares.size.y),
+                                            static_cast<py::ssize_t>(shares.size.x), 4 };
+    py::array_t<double> array(shape);
+    double* out = array.mutable_data();
+    for (uint32_t y = 0; y < shares.size.y; ++y) {
+        for (uint32_t x = 0; x < shares.size.x; ++x) {
+            const double4 share = shares.share(term, { x, y });
+            for (int channel = 0; channel < 4; ++channel) *out++ = share[channel];
+        }
+    }
+    return array;
+}
+
+py::dict renderSharesOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
+                        std::string const& terms, LightsByName const& groups, int64_t frames) {
+    Owner& owner = *engine.owner;
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    const View settings = plainViewOf(view, owner);
+    const std::vector<LightGroup> grouped = groupsOf(scene, groups);
+    ShareOptions options = shareOptionsOf(terms, frames);
+    options.groups = grouped;
+    const Scene& content = *scene;
+    Result<Shares> drawn = released([&] { return renderShares(call.engine(), content, settings, options); });
+    checkFrame(owner);
+    const Shares shares = valueOf(std::move(drawn));
+    py::dict arrays;
+    for (size_t term = 0; term < shares.terms.size(); ++term) {
+        const py::str name(shares.terms[term].name);
+        if (arrays.contains(name)) raiseInvalid("groups: '{}' is the name of another term", shares.terms[term].name);
+        arrays[name] = arrayOfShare(shares, term);
+    }
+    return arrays;
+}
+
+py::object explainPixelOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view, int64_t x,
+                          int64_t y, std::string const& terms, int64_t frames) {
+    Owner& owner = *engine.owner;
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    const View settings = plainViewOf(view, owner);
+    const ShareOptions options = shareOptionsOf(terms, frames);
+    if (x < 0 || x >= int64_t{ settings.size.x } || y < 0 || y >= int64_t{ settings.size.y })
+        raiseInvalid("pixel: {}, {} is not in a view of {} x {} pixels", x, y, settings.size.x, settings.size.y);
+    const uint2 pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+    const Scene& content = *scene;
+    Result<PixelExplanation> explained =
+            released([&] { return explainPixel(call.engine(), content, settings, pixel, options); });
+    checkFrame(owner);
+    return py::module_::import("json").attr("loads")(toJson(valueOf(std::move(explained))));
 }
 
 py::list decisionsOf(DrawingObject const& self) {
@@ -187,6 +274,18 @@ void bindRenderer(py::module_& module) {
             "Numbers of the surfaces that a view shows, by their names in docs/aovs.md: float32 arrays (height, width, "
             "4), row 0 on top, with 1 in the last channel where there is a value, 0.5 where the material has none, "
             "and 0 where no surface is. Other threads of Python run meanwhile.");
+    module.def(
+            "render_shares", &renderSharesOf, py::arg("engine").none(false), py::arg("scene").none(false),
+            py::arg("view").none(false), py::kw_only(), py::arg("terms") = "lights", py::arg("groups") = LightsByName{},
+            py::arg("frames") = 1,
+            "What each light or effect adds to render(output='light') of a new renderer: float64 arrays (height, "
+            "width, 4) by name, which add up to its bits. terms='lights': by light, those of `groups` (lights by name) "
+            "together; 'effects': by effect; 'all': both. Other threads of Python run meanwhile.");
+    module.def("explain_pixel", &explainPixelOf, py::arg("engine").none(false), py::arg("scene").none(false),
+               py::arg("view").none(false), py::arg("x"), py::arg("y"), py::kw_only(), py::arg("terms") = "all",
+               py::arg("frames") = 1,
+               "Why a pixel has its light: a dict with the terms of render_shares() there, their sum, and the surface. "
+               "docs/shares.md has its members. Other threads of Python run meanwhile.");
     py::class_<DrawingObject, std::shared_ptr<DrawingObject>>(
             module, "Renderer", "Draws scenes to arrays. Keeps what effects gather over frames.")
             .def(py::init(&makeRenderer), py::arg("engine"), py::kw_only(), py::arg("pass_timers") = false)

@@ -18,14 +18,14 @@ from . import reports
 from ._core import (ClosedError, Comparison, CorruptError, DeviceError, Engine, Environment, Error, InvalidArgumentError,
                     Light, LightImage, Material, MaterialInstance, Mesh, Model, ModelCopy, NotFoundError, OutOfMemoryError,
                     ReflectionProbe, Renderer, Scene, Shape, Texture, ThreadError, UnreadableError, UnsupportedError, View, __version__, compare,
-                    compile_material, compile_material_text, difference, flip, list_devices, load_picture, options,
-                    render_aovs, save_picture)
+                    compile_material, compile_material_text, difference, explain_pixel, flip, list_devices, load_picture, options,
+                    render_aovs, render_shares, save_picture)
 
 __all__ = ["ClosedError", "Comparison", "CorruptError", "DeviceError", "Engine", "Environment", "Error",
            "InvalidArgumentError", "Light", "LightImage", "Material", "MaterialInstance", "Mesh", "Model", "ModelCopy", "NotFoundError",
            "OutOfMemoryError", "ReflectionProbe", "Renderer", "Scene", "Shape", "Texture", "ThreadError", "UnreadableError",
            "UnsupportedError", "View", "__version__", "compare", "compile_material", "compile_material_text", "difference",
-           "flip", "list_devices", "load_picture", "options", "render_aovs", "reports", "save_picture"]
+           "explain_pixel", "flip", "list_devices", "load_picture", "options", "render_aovs", "render_shares", "reports", "save_picture"]
 
 for _name in __all__:  # where users import them from: in messages, help() and pickles of exceptions
     if isinstance(globals()[_name], type):

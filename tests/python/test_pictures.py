@@ -60,6 +60,24 @@ class ClosedForms(unittest.TestCase):
         with self.assertRaisesRegex(fc.InvalidArgumentError, "names: 'beauty' is not depth, position"):
             fc.render_aovs(self.engine, self.scene, flat_view(), ["beauty"])
 
+    def test_shares_add_up_to_the_light(self):
+        self.scene.add_mesh(self.engine.sphere(), self.engine.built_in_material("lit").instance(), name="ball")
+        lamps = [self.scene.add_point_light((x, 0, 2), 2000) for x in (-0.5, 0.5)]
+        self.scene.add_sun((0, 0, -1), 20000)
+        view = flat_view(16, 16)
+        view["vignette"] = True
+        light = fc.Renderer(self.engine).render(self.scene, view, output="light")
+        shares = fc.render_shares(self.engine, self.scene, view, terms="all", groups={"lamps": lamps})
+        self.assertEqual(list(shares), ["emission", "lamps", "light2", "shadows", "refraction", "vignette"])
+        self.assertEqual((shares["lamps"].dtype, shares["lamps"].shape), (np.float64, (16, 16, 4)))
+        self.assertTrue((sum(shares.values()) == light).all())
+        explained = fc.explain_pixel(self.engine, self.scene, view, 8, 9)
+        self.assertEqual(explained["value"], light[9, 8].tolist())
+        self.assertEqual(np.sum([term["value"] for term in explained["terms"]], axis=0).tolist(), explained["value"])
+        self.assertEqual(explained["surface"]["material"], "lit")
+        with self.assertRaisesRegex(fc.InvalidArgumentError, "pixel: 16, 0 is not in a view of 16 x 16"):
+            fc.explain_pixel(self.engine, self.scene, view, 16, 0)
+
     def test_a_parallel_lens_shows_metres(self):
         self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)), transform=placed(scale=0.5))
         for metres, side in ((2, 32), (4, 16), (8, 8)):
