@@ -10,6 +10,7 @@
 #include "filament_core/engine/ImageTarget.h"
 #include "filament_core/engine/Picker.h"
 #include "filament_core/engine/PixelReads.h"
+#include "filament_core/engine/PostProcess.h"
 #include "filament_core/engine/ProbeTexture.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
@@ -61,6 +62,10 @@ struct Target {
 
     bool isSrgb() const { return backend::formatInfo(color.desc.format).isSrgb; }
 };
+
+std::array<TextureHandle, 2> texturesOf(Target const& target) {
+    return { target.color.handle, target.depth ? target.depth->handle : TextureHandle{} };
+}
 
 FrameOutput outputOf(Target const& target) {
     engine::TextureState const& color = target.color;
@@ -178,7 +183,9 @@ struct Renderer::Impl final : engine::Dependent {
         const auto looksBeside = [&] {
             return prepare::looksBesidePicture(scene.impl().upToDate(), input.quality, effects);
         };
-        if (input.band > 0 && (hasDepthTarget || !looksBeside())) input.size = input.inside(), input.band = 0;
+        const bool isAppPassed = !engine::postProcessOf(view).empty();
+        if (input.band > 0 && (hasDepthTarget || isAppPassed || !looksBeside()))
+            input.size = input.inside(), input.band = 0;
         return input;
     }
 
@@ -213,6 +220,8 @@ struct Renderer::Impl final : engine::Dependent {
             engine.streamer->note(engine.jobs, arena, scene.impl().data, packet);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
+        context.followsLast = last.isFollowedBy(scene.impl().data, packet.settings);
+        engine::usePostProcess(engine, arena, view, context);
         addDebugQuads(context, view, effects, output);
         useKept(context, pipelines);
         blocks.begin();
@@ -248,7 +257,8 @@ struct Renderer::Impl final : engine::Dependent {
     void addDebugQuads(FrameContext& context, View const& view, Effects const& effects, FrameOutput const& output) {
         if (view.debugDraw && !view.debugDraw->empty())
             context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, wholeInputOf(view, effects, 0));
-        context.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
+        context.keepsDepth =
+                output.depth || context.debugDraw.quads.tested > 0 || passes::readsDepth(context.appPasses);
     }
 
     /// Out of memory: the next frame starts without history.
@@ -292,6 +302,8 @@ struct Renderer::Impl final : engine::Dependent {
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
     Result<void> drawFrame(Scene const& scene, View const& view, Target const& target) {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
+        Result<void> usable = engine::checkPostProcess(engine, view, texturesOf(target));
+        if (!usable) return leaveOut(usable.error());
         timers.clear();
         stamps = { .begin = clock() };
         const Effects effects = clamped(view.effects);
@@ -387,6 +399,8 @@ struct Renderer::Impl final : engine::Dependent {
         checkNumbers(view, target.color.desc.format);
         try {
             const jobs::AdoptedThread seat(engine.jobs);
+            Result<void> usable = engine::checkPostProcess(engine, view, texturesOf(target));
+            if (!usable) return engine.report(usable.error().message);
             std::vector<passes::FullScreenRequest> requests;
             rehearse(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target, requests);
             engine.dispatches.makeExpected(engine.pending);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ChosenDraws.h"
 
+#include <algorithm>
+
 namespace filament_core::passes {
 
 ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
@@ -8,6 +10,17 @@ ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& conte
     PipelineSource const& pipelines = context.resources.pipelines;
     return { surfaceGroups(pass, context, target), draws,
              choosePipelines(pass, *context.arena, pipelines, pipelines.slot(slot), draws, 0) };
+}
+
+std::span<const prepare::DrawCall> opaqueWithoutFade(FrameContext const& context) {
+    using prepare::DrawCall;
+    prepare::ViewPacket const& view = context.packet.mainView();
+    if (view.counts.fadingLevels == 0) return view.opaque;
+    const std::span<DrawCall> draws = context.arena->copy(view.opaque);
+    const auto end = std::remove_if(draws.begin(), draws.end(), [](DrawCall const& draw) { return draw.fade < 0; });
+    const auto drawn = draws.first(static_cast<size_t>(end - draws.begin()));
+    for (DrawCall& draw : drawn) draw.fade = 0;
+    return drawn;
 }
 
 DrawContext shadedDraws(FrameContext const& context,

@@ -20,6 +20,10 @@ struct ChosenDraws {
 ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
                         PassBlock target, std::span<const prepare::DrawCall> draws);
 
+/// The opaque list of the main view for a pass without the depths of levels of detail that fade: those that appear are
+/// drawn as any other.
+std::span<const prepare::DrawCall> opaqueWithoutFade(FrameContext const& context);
+
 /// In `execute`: how the main view's surfaces are drawn with their light.
 DrawContext shadedDraws(FrameContext const& context,
                         std::array<backend::BindGroupHandle, shader::kSurfaceKinds> const& passGroups);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ColorPass.h"
 
+#include "filament_core/passes/AppPass.h"
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
@@ -107,17 +108,6 @@ void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlock
     }
 }
 
-/// Where no prepass left the depths of levels of detail that fade, those that appear are drawn as any other.
-std::span<const DrawCall> opaqueDraws(FrameContext const& context, bool hasDepth) {
-    prepare::ViewPacket const& view = context.packet.mainView();
-    if (view.counts.fadingLevels == 0 || hasDepth) return view.opaque;
-    const std::span<DrawCall> draws = context.arena->copy(view.opaque);
-    const auto end = std::remove_if(draws.begin(), draws.end(), [](DrawCall const& draw) { return draw.fade < 0; });
-    const auto drawn = draws.first(static_cast<size_t>(end - draws.begin()));
-    for (DrawCall& draw : drawn) draw.fade = 0;
-    return drawn;
-}
-
 /// Of two levels of detail that fade into each other, a pixel shows the one that left its depth.
 DrawSlots slotsOf(PassContext& pass, FrameContext const& context, uint32_t slot) {
     if (context.packet.mainView().counts.fadingLevels == 0) return slot;
@@ -134,7 +124,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
     chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
     chosen.blendedDraws = blocks.part.blended;
     if (blocks.part.isFirst) {
-        chosen.opaqueDraws = opaqueDraws(context, blocks.hasDepth);
+        chosen.opaqueDraws = blocks.hasDepth ? view.opaque : opaqueWithoutFade(context);
         chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slotsOf(pass, context, slot),
                                         chosen.opaqueDraws, view.variant, view.channels);
         chooseBackground(pass, context, blocks, slot, chosen);
@@ -277,8 +267,25 @@ void addSplatsFirst(FrameGraph& graph, FrameContext const& context, ColorAttachm
     ColorPart rest = blocks.part;
     rest.isFirst = false;
     blocks.part = before(blocks.part, 0);
-    addPart(graph, context, to, "color", blocks);
+    if (blocks.part.isFirst) addPart(graph, context, to, "color", blocks);
     addSplatPasses(graph, context, { .color = to.color, .samples = to.samples, .depth = to.sceneDepth });
+    blocks.part = rest;
+}
+
+/// The opaque objects of the first part, and the app's passes over them. Leaves the rest of the part.
+void addAppPassesFirst(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, ColorAttachments& to,
+                       ColorBlocks& blocks) {
+    ColorPart rest = blocks.part;
+    rest.isFirst = false;
+    blocks.part = before(blocks.part, 0);
+    addPart(graph, context, to, "color", blocks);
+    const TextureId changed = addAppPasses(graph, context, targets, PassPlace::AfterOpaque, to.color);
+    if (to.samples == to.color) {
+        to.color = to.samples = targets.color = changed;
+    } else {
+        // Edges of opaque objects have been smoothed by now: all samples of a pixel become the same.
+        addCopyPass(graph, context, changed, to.samples, to.color);
+    }
     blocks.part = rest;
 }
 
@@ -291,7 +298,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     blocks.target = declareTarget(context, like, 0, samples);
     if (targets.sceneColor) showPicture(context, like, wholeSceneColor(context), targets.sceneColor, blocks);
     blocks.discs = declareDiscs(context);
-    const ColorAttachments to = attachmentsOf(graph, context, targets);
+    ColorAttachments to = attachmentsOf(graph, context, targets);
     blocks.hasDepth = to.hasDepth;
     targets.depth = to.depth;
     targets.sceneDepth = to.sceneDepth;
@@ -303,10 +310,10 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
             addPart(graph, context, to, name, blocks);
     };
     blocks.part = partOf(view, 0);
-    const bool hasSplats = context.packet.demand.needs(prepare::Effect::Splats);
+    if (hasAppPasses(context, PassPlace::AfterOpaque)) addAppPassesFirst(graph, context, targets, to, blocks);
     // Splats write no depth: opaque objects come before them, to hide them, and transparent objects after them.
-    if (hasSplats) addSplatsFirst(graph, context, to, blocks);
-    if (!hasSplats || !blocks.part.blended.empty()) add(hasSplats ? "blended" : "color");
+    if (context.packet.demand.needs(prepare::Effect::Splats)) addSplatsFirst(graph, context, to, blocks);
+    if (blocks.part.isFirst || !blocks.part.blended.empty()) add(blocks.part.isFirst ? "color" : "blended");
     for (size_t i = 0; i < view.pictures.size(); ++i) {
         // Each copy shows what all parts before it have drawn.
         targets.sceneColor = addSceneColorCopyPasses(graph, context, to.color, to.sceneDepth, view.pictures[i]);

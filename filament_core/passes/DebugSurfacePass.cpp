@@ -2,6 +2,7 @@
 #include "filament_core/passes/DebugSurfacePass.h"
 
 #include "filament_core/passes/ChosenDraws.h"
+#include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/prepare/DebugViews.h"
 
 namespace filament_core::passes {
@@ -17,11 +18,23 @@ struct ChosenSurfaces {
     ChosenDraws opaque, blended;
 };
 
-ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSlot debug, PassBlock target) {
+/// What of the surfaces is drawn, and to which targets.
+struct DebugSurfaces {
+    std::string_view name;
+    DebugSlot debug = DebugSlot::Values;
+    DebugView shown = DebugView::None;
+    TextureId color, depth;
+    bool keepsDepth = false; ///< what `depth` has already
+    bool isOpaque = false;   ///< opaque ones alone
+};
+
+ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSurfaces const& surfaces,
+                              PassBlock target) {
     PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
-    slot.debug = debug;
+    slot.debug = surfaces.debug;
     slot.edges = context.resources.edges;
     prepare::ViewPacket const& view = context.packet.mainView();
+    if (surfaces.isOpaque) return { chooseDraws(pass, context, slot, target, opaqueWithoutFade(context)), {} };
     return { chooseDraws(pass, context, slot, target, view.opaque),
              chooseDraws(pass, context, slot, target, view.blended) };
 }
@@ -35,16 +48,8 @@ void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenSurfac
     }
 }
 
-/// What of the surfaces is drawn, and to which targets.
-struct DebugSurfaces {
-    std::string_view name;
-    DebugSlot debug = DebugSlot::Values;
-    TextureId color, depth;
-    bool keepsDepth = false; ///< what `depth` has already
-};
-
 void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces const& to) {
-    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, context.settings().debugView);
+    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, to.shown);
     graph.addPass(
             to.name,
             [&](PassBuilder& pass) {
@@ -54,9 +59,7 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces c
                     depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
                 pass.writeDepth(to.depth, depth);
             },
-            [of = &context, debug = to.debug, target](PassContext& pass) {
-                return chooseSurfaces(pass, *of, debug, target);
-            },
+            [of = &context, to, target](PassContext& pass) { return chooseSurfaces(pass, *of, to, target); },
             [of = &context](PassContext& pass, ChosenSurfaces const& chosen) { recordSurfaces(pass, *of, chosen); });
 }
 
@@ -72,6 +75,7 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
                   .debug = counts ? DebugSlot::Counts : DebugSlot::Values,
+                  .shown = context.settings().debugView,
                   .color = targets.color,
                   .depth = targets.depth,
                   .keepsDepth = hasDepth });
@@ -86,7 +90,35 @@ void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTarget
     const TextureId depth = createLike(graph, targets.color, Format::D32F, 1, "depth of triangles");
     if (!targets.sceneDepth) targets.sceneDepth = depth;
     addSurfaces(graph, context,
-                { .name = "triangles", .debug = DebugSlot::Edges, .color = targets.triangles, .depth = depth });
+                { .name = "triangles",
+                  .debug = DebugSlot::Edges,
+                  .shown = context.settings().debugView,
+                  .color = targets.triangles,
+                  .depth = depth });
+}
+
+TextureId addNormalsPass(FrameGraph& graph, FrameContext const& context, uint2 size) {
+    const auto create = [&](Format format, std::string_view name) {
+        return graph.createTexture({ .width = size.x, .height = size.y, .format = format, .name = name });
+    };
+    const TextureId stored = create(Format::RGBA16F, "stored normals"), normals = create(Format::RGBA16F, "normals");
+    addSurfaces(graph, context,
+                { .name = "normals",
+                  .shown = DebugView::Normals,
+                  .color = stored,
+                  .depth = create(Format::D32F, "depth of normals"),
+                  .isOpaque = true });
+    constexpr std::string_view kInputs[] = { "value" };
+    const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(DebugView::Normals) },
+                                EffectConstant{ "isEncoded", false }, EffectConstant{ "isNumber", true } };
+    const std::array inputs{ FullScreenInput{ .name = "value", .texture = stored } };
+    addFullScreenPass(graph, context,
+                      { .name = "normals",
+                        .material = context.resources.effects->get("debug_material", constants,
+                                                                   { .pass = "normals", .inputs = kInputs }),
+                        .inputs = inputs,
+                        .target = normals });
+    return normals;
 }
 
 } // namespace filament_core::passes

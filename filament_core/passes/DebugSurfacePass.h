@@ -7,6 +7,7 @@
 ///                        counts, which is the nearest one that passes its test.
 ///   addTrianglePass      beside it: which triangle each pixel shows, for its edges. Surfaces that blend hide as others
 ///                        do.
+///   addNormalsPass       normals of opaque surfaces, for passes of the app.
 ///   Demand   prepare::showsMaterials() and showsEdges().
 ///   Thread   the app thread.
 #pragma once
@@ -19,5 +20,8 @@ namespace filament_core::passes {
 void addDebugSurfacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 /// FrameTargets::triangles; none: the device does not number them.
 void addTrianglePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+
+/// World space; w is 1 where there is a normal, less elsewhere. `size` pixels of half floats.
+framegraph::TextureId addNormalsPass(framegraph::FrameGraph& graph, FrameContext const& context, uint2 size);
 
 } // namespace filament_core::passes

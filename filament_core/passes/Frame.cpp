@@ -2,6 +2,7 @@
 #include "filament_core/passes/Frame.h"
 
 #include "filament_core/passes/AmbientOcclusionPass.h"
+#include "filament_core/passes/AppPass.h"
 #include "filament_core/passes/BloomPass.h"
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugDrawPass.h"
@@ -95,7 +96,8 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
     beginViewportBlit(graph, context, output, targets);
     // What half floats do not hold is to be seen, or given.
     const bool isFull = context.settings().debugView == DebugView::Numerics || context.settings().givesNumbers;
-    const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.changesColor();
+    const bool isFinished = output.isSceneLinear() && !showsDecisions(context) &&
+                            !context.packet.demand.changesColor() && context.appPasses.empty();
     targets.color = isFinished ? targets.output
                                : graph.createTexture({ .width = size.x,
                                                        .height = size.y,
@@ -154,6 +156,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
         addBloomPasses(graph, context, targets);
         addGuardBandCutPass(graph, context, targets);
     }
+    targets.color = addAppPasses(graph, context, targets, PassPlace::BeforeToneMapping, targets.color);
     addExposurePasses(graph, context, targets);
     if (context.settings().band == 0) addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);

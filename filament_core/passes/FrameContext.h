@@ -39,6 +39,8 @@ struct FrameDebugDraw {
     FrameQuads buffers{};
 };
 
+struct AppPass;
+
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
@@ -49,7 +51,9 @@ struct FrameContext {
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
     FrameDebugDraw debugDraw{};
-    FrameQuads splats{}; ///< of FramePacket::splats
+    std::span<const AppPass> appPasses{}; ///< View::postProcess; none in debug views
+    bool followsLast = false;             ///< the last frame showed the same scene, in the same size
+    FrameQuads splats{};                  ///< of FramePacket::splats
 
     // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views;                        ///< by view of the packet

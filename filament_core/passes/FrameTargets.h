@@ -30,6 +30,8 @@ struct FrameTargets {
     framegraph::TextureId triangles;        ///< numbers of visible triangles (debug_edges.mat), for their debug view
     framegraph::BufferId fogCells;          ///< FogCells of ShaderInterface.h; null if unused
     framegraph::TextureId sceneColor;       ///< as kBindingPicture says; null if unused
+    framegraph::TextureId appDistances;     ///< `depth` and `normals` of AppPass.h; null until one reads them
+    framegraph::TextureId appNormals;
 };
 
 } // namespace filament_core::passes

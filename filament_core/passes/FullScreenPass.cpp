@@ -46,8 +46,10 @@ std::span<const Input> boundInputs(Arena& arena, FullScreenPass const& pass, Mat
 static_assert(std::variant_size_v<ParameterValue> == static_cast<size_t>(ParameterType::Float4x4) + 1);
 
 PassBlock declareValues(Arena& arena, FrameContext const& context, MaterialPackage const& package,
-                        std::span<const FullScreenValue> values) {
+                        std::span<const FullScreenValue> values, std::span<const std::byte> block = {}) {
     if (package.uniformBytes == 0) return {};
+    FILAMENT_ASSERT(block.empty() || block.size() == package.uniformBytes, "a block holds all of the parameters");
+    if (!block.empty()) return context.blocks->add(block);
     const std::span<std::byte> bytes = arena.array<std::byte>(package.uniformBytes);
     for (FullScreenValue const& value : values) {
         Parameter const* parameter = package.findParameter(value.name);
@@ -71,7 +73,9 @@ std::span<const Part> declareParts(Arena& arena, FrameContext const& context, Fu
                                    std::span<const Input> inputs) {
     const auto parts = arena.array<Part>(std::max<size_t>(pass.tiles.size(), 1));
     if (pass.tiles.empty())
-        parts[0] = { {}, declareValues(arena, context, pass.material.package, pass.values), &pass.material, inputs };
+        parts[0] = {
+            {}, declareValues(arena, context, pass.material.package, pass.values, pass.block), &pass.material, inputs
+        };
     for (size_t i = 0; i < pass.tiles.size(); ++i) {
         FullScreenTile const& tile = pass.tiles[i];
         scene::Material const& material = tile.material ? *tile.material : pass.material;

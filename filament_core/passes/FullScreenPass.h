@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -72,6 +73,7 @@ struct FullScreenPass {
     scene::Material const& material;
     std::span<const FullScreenInput> inputs{};
     std::span<const FullScreenValue> values{};
+    std::span<const std::byte> block{}; ///< instead of values: all of the material's parameters, as they are stored
     framegraph::TextureId target{};
     framegraph::TextureId resolve{};         ///< of a target with several samples a pixel: receives their mean
     uint8_t level = 0;                       ///< of the target

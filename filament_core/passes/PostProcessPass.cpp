@@ -2,6 +2,7 @@
 #include "filament_core/passes/PostProcessPass.h"
 
 #include "base/math/Elementary.h"
+#include "filament_core/passes/AppPass.h"
 #include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/ResolutionPass.h"
@@ -34,6 +35,7 @@ constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .val
 /// What the passes of a frame do.
 struct PostProcessSteps {
     bool isSceneLinear = false;
+    bool hasAppPasses = false;                                     // after the tone mapper
     bool smoothsEdges = false, enlarges = false, sharpens = false; // in this order, after the others
     bool hasBloom = false, isDirty = false, hasFlare = false, isExposed = false, isGraded = false, hasVignette = false,
          hasFringes = false;
@@ -41,7 +43,7 @@ struct PostProcessSteps {
     bool hasGrain = false;                    // by the last pass, because the others take noise for edges
     bool hasTenBits = false, dithers = false; // dither: as grain
 
-    bool hasLaterPass() const { return smoothsEdges || changesPixels(); }
+    bool hasLaterPass() const { return hasAppPasses || smoothsEdges || changesPixels(); }
     bool changesPixels() const { return enlarges || sharpens; }
     /// Whether more than a tone mapper is asked for.
     bool hasLens() const {
@@ -54,6 +56,7 @@ struct PostProcessSteps {
 PostProcessSteps stepsOf(FrameContext const& context, Format target, bool isSceneLinear, bool enlarges) {
     prepare::SceneDemand const& demand = context.packet.demand;
     return { .isSceneLinear = isSceneLinear,
+             .hasAppPasses = hasAppPasses(context, PassPlace::AfterToneMapping),
              .smoothsEdges = demand.needs(Effect::Fxaa),
              .enlarges = enlarges,
              .sharpens = demand.needs(Effect::Sharpening),
@@ -220,7 +223,8 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
 
 /// Where objects have edges: beside them only the sky is, unless they are elsewhere on screen.
 Rect pixelsWithEdges(prepare::FramePacket const& packet, PostProcessSteps const& steps, uint2 size) {
-    const bool isKnown = size == packet.settings.size && !steps.hasFringes && packet.discs.empty();
+    const bool isKnown =
+            size == packet.settings.size && !steps.hasFringes && !steps.hasAppPasses && packet.discs.empty();
     return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };
 }
 
@@ -248,7 +252,7 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, PostProcessStep
     }
     addFullScreenPass(graph, context,
                       { .name = "fxaa",
-                        .material = fxaaMaterial(context, steps, true),
+                        .material = fxaaMaterial(context, steps, steps.smoothsEdges),
                         .inputs = inputs,
                         .target = target,
                         .tiles = std::span(tiles).first(count),
@@ -258,8 +262,8 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, PostProcessStep
 /// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their
 /// steps.
 TextureId createUnfinished(FrameGraph& graph, PostProcessSteps const& steps, uint2 size, std::string_view name) {
-    const bool isEightBit =
-            !steps.isSceneLinear && !steps.dithers && !steps.hasGrain && !steps.sharpens && !steps.hasTenBits;
+    const bool isEightBit = !steps.isSceneLinear && !steps.hasAppPasses && !steps.dithers && !steps.hasGrain &&
+                            !steps.sharpens && !steps.hasTenBits;
     return graph.createTexture({ .width = size.x,
                                  .height = size.y,
                                  .format = isEightBit ? Format::RGBA8 : Format::RGBA16F,
@@ -315,11 +319,38 @@ void addPictureOfView(FrameGraph& graph, FrameContext const& context, PostProces
         addPicture(graph, context, steps, targets, target);
 }
 
-} // namespace
+/// What follows the tone mapper, from `picture`.
+void addLaterPasses(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps,
+                    FrameTargets& targets, TextureId picture) {
+    if (steps.hasAppPasses) {
+        // The noise of the frame comes last, by the filter of edges, which copies where it has nothing to smooth.
+        const bool isLast = !steps.smoothsEdges && !steps.changesPixels() && !steps.dithers && !steps.hasGrain;
+        picture = addAppPasses(graph, context, targets, PassPlace::AfterToneMapping, picture,
+                               isLast ? targets.output : TextureId{});
+        if (isLast) return;
+    }
+    // Edges are smoothed before the image grows, since upscaling would take their steps for detail. Sharpening is last:
+    // it makes up for the blur of upscaling. This is the order of FidelityFX Super Resolution 1 (Lottes 2021).
+    if (steps.smoothsEdges || !steps.changesPixels()) {
+        const TextureId smooth = steps.changesPixels()
+                                         ? createUnfinished(graph, steps, sizeOf(graph, picture), "smooth")
+                                         : targets.output;
+        addFxaaPass(graph, context, steps, picture, smooth);
+        picture = smooth;
+    }
+    const LastStep last{ .isSceneLinear = steps.isSceneLinear, .hasGrain = steps.hasGrain, .dithers = steps.dithers };
+    if (steps.enlarges) {
+        const TextureId large = steps.sharpens ? createUnfinished(graph, steps, sizeOf(graph, targets.output), "large")
+                                               : targets.output;
+        addUpscalingPass(graph, context, { picture, large },
+                         steps.sharpens ? LastStep{ .isSceneLinear = steps.isSceneLinear } : last);
+        picture = large;
+    }
+    if (steps.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
+}
 
-void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
-                          bool isSceneLinear) {
-    if (targets.color == targets.output) return;
+/// From targets.color to targets.output.
+void addAllPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, bool isSceneLinear) {
     const uint2 size = sizeOf(graph, targets.color), shown = sizeOf(graph, targets.output);
     const PostProcessSteps steps =
             stepsOf(context, graph.texture(targets.target).desc.format, isSceneLinear, size != shown);
@@ -329,22 +360,19 @@ void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameT
         picture = createUnfinished(graph, steps, size, steps.smoothsEdges ? "with edges" : "with few pixels");
         addPictureOfView(graph, context, steps, targets, picture);
     }
-    // Edges are smoothed before the image grows, since upscaling would take their steps for detail. Sharpening is last:
-    // it makes up for the blur of upscaling. This is the order of FidelityFX Super Resolution 1 (Lottes 2021).
-    if (steps.smoothsEdges) {
-        const TextureId smooth =
-                steps.changesPixels() ? createUnfinished(graph, steps, size, "smooth") : targets.output;
-        addFxaaPass(graph, context, steps, picture, smooth);
-        picture = smooth;
-    }
-    const LastStep last{ .isSceneLinear = isSceneLinear, .hasGrain = steps.hasGrain, .dithers = steps.dithers };
-    if (steps.enlarges) {
-        const TextureId large = steps.sharpens ? createUnfinished(graph, steps, shown, "large") : targets.output;
-        addUpscalingPass(graph, context, { picture, large },
-                         steps.sharpens ? LastStep{ .isSceneLinear = isSceneLinear } : last);
-        picture = large;
-    }
-    if (steps.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
+    addLaterPasses(graph, context, steps, targets, picture);
+}
+
+} // namespace
+
+void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, bool isSceneLinear) {
+    if (targets.color == targets.output) return;
+    if (!hasAppPasses(context, PassPlace::Last)) return addAllPasses(graph, context, targets, isSceneLinear);
+    const TextureId output = targets.output;
+    targets.output = createLike(graph, output, graph.texture(output).desc.format, 1, "before the last passes");
+    addAllPasses(graph, context, targets, isSceneLinear);
+    addAppPasses(graph, context, targets, PassPlace::Last, targets.output, output);
+    targets.output = output;
 }
 
 } // namespace filament_core::passes

@@ -7,6 +7,7 @@
 ///           the graph cannot merge it (MSAA, a device without subpass inputs) it samples instead. Same arithmetic,
 ///           same bits.
 ///   Draws   targets.output: display values by the view's tone mapper; light itself, if `isSceneLinear`.
+///           Passes of the app come between the tone mapper and what follows it, and after all of them.
 ///   Skips   what an output of light has already been drawn to.
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace filament_core::passes {
 
-void addPostProcessPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
+void addPostProcessPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets,
                           bool isSceneLinear);
 
 } // namespace filament_core::passes

@@ -8,12 +8,14 @@
 #include <filament_core/Effects.h>
 #include <filament_core/Objects.h>
 #include <filament_core/Options.h>
+#include <filament_core/PostProcess.h>
 #include <filament_core/Quality.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace filament_core {
@@ -153,6 +155,7 @@ struct View {
     std::optional<Viewport> viewport{}; ///< none: the view covers its target
     /// Drawn over the output; <filament_core/DebugDraw.h>. Until render() returns.
     DebugDraw const* debugDraw = nullptr;
+    std::span<const PostProcessPass> postProcess{}; ///< passes of the app, in their order. Until render() returns
 };
 
 } // namespace filament_core

@@ -114,7 +114,7 @@ template <> struct Fields<View> {
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
                                              field("visibleLayers", &View::visibleLayers) };
-    static constexpr size_t others = 3; // viewport, debugDraw, aov
+    static constexpr size_t others = 4; // viewport, debugDraw, postProcess, aov
 };
 template <> struct Fields<GltfLoadOptions> {
     static constexpr auto list = std::tuple{ field("positions", &GltfLoadOptions::positions),
