@@ -179,6 +179,9 @@ private:
         View& view = built.view;
         view.camera =
                 scenebuild::cameraOf(mContents.camera, mContents.origin, mContents.exposure, built.scene.bounds());
+        if (!mContents.passes.empty())
+            return fail(ErrorCode::Unsupported, "postProcess: '{}' must be compiled: set View::postProcess yourself",
+                        mContents.passes.front().material);
         built.debug = std::make_unique<DebugDraw>(mContents.debug);
         view.debugDraw = built.debug.get();
         for (std::vector<Node> const& copies : built.copies)

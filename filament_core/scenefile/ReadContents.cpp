@@ -134,6 +134,14 @@ void readOverlay(JsonReader& reader, SceneFileContents& scene) {
         reader.complain("viewport", "expected one whose offset and size lie in the picture");
 }
 
+void readPass(JsonReader& reader, SceneFilePass& pass) {
+    reader.read("material", pass.material);
+    if (pass.material.empty() && !reader.isDescribing())
+        reader.complain("material", "expected the file of a material of domain postprocess");
+    reader.choice("place", pass.place, enumNames<PassPlace>());
+    reader.read("values", pass.values);
+}
+
 void readComparator(JsonReader& reader, SceneFileComparison& comparison) {
     reader.choice("kind", comparison.kind, enumNames<ImageComparator>());
     reader.read("tolerance", comparison.tolerance, 0, 255);
@@ -182,6 +190,7 @@ void readAll(JsonReader& reader, SceneFileContents& scene) {
         r.read("bloom.dirt", scene.dirt);
     });
     reader.object("debug", [&](JsonReader& r) { readDebugDraw(r, scene.debug); });
+    reader.objects("postProcess", [&](JsonReader& r) { readPass(r, scene.passes.emplace_back()); });
     reader.objects("overlays", [&](JsonReader& r) { readOverlay(r, scene); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, scene.comparison); });
     reader.read("kills", scene.comparison.kills);

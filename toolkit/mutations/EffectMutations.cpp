@@ -268,6 +268,8 @@ constexpr Mutation kEffectMutations[] = {
     { "outputSpace", "another colour space of the display", makeFinish<kOutputSpace> },
     { "nightOff", "no vision at night", makeFinish<kAdaptsToNight> },
     { "dirtOff", "no dirt on the lens", makeFinish<kIsDirty> },
+    { "passNormals", "passes of the app read the colours of normals instead of normals",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("debug_material", 2); } },
     { "flareOff", "no lens flare", makeFinish<kHasFlare> },
     { "flarePlaces", "ghosts and halo of the lens 2 % off their places", make<FlarePlacesEdit> },
     { "toneMapper", "another tone mapper by formula",

@@ -51,6 +51,7 @@ void readView(SceneSpec& spec, SceneFile const& file) {
         spec.overlays.push_back({ overlay.view, *overlay.camera.eye, overlay.camera.at, overlay.camera.lens });
     spec.debugDraw = scene.debug;
     if (!scene.dirt.empty()) spec.dirt = file.folder() / scene.dirt;
+    spec.passes = scene.passes;
     spec.linear = scene.isLinear;
     spec.frames = scene.frames;
     spec.secondsPerFrame = scene.secondsPerFrame;

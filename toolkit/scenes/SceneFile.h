@@ -7,6 +7,7 @@
 #pragma once
 
 #include "toolkit/json/JsonReader.h"
+#include "toolkit/scenes/ScenePasses.h"
 
 #include <filament_core/Camera.h>
 #include <filament_core/DebugDraw.h>
@@ -85,6 +86,7 @@ struct SceneSpec {
     std::vector<OverlaySpec> overlays; ///< over the last frame, in this order
     DebugDraw debugDraw;               ///< over all frames
     std::filesystem::path dirt;        ///< an image for Bloom::dirt; empty: none
+    std::vector<SceneFilePass> passes; ///< View::postProcess
     bool linear = false;               ///< scene-linear half floats: no tone mapping
     uint32_t frames = 1;               ///< frames drawn, including the one that is compared
     Comparator comparator{};

@@ -49,6 +49,14 @@ Result<void> Stage::loadDirt(SceneSpec const& spec) {
     return {};
 }
 
+Result<void> Stage::loadPasses(SceneSpec const& spec) {
+    Result<tools::ScenePasses> passes = tools::ScenePasses::make(mEngine, spec.folder, spec.passes);
+    if (!passes) return fail(passes.error().code, "{}: postProcess: {}", spec.name, passes.error().message);
+    mPasses = std::move(*passes);
+    mView.postProcess = mPasses.passes();
+    return {};
+}
+
 Result<void> Stage::set(SceneSpec const& spec) {
     mShown.reset();
     if (mTrace) {
@@ -63,6 +71,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
     mShown.emplace(std::move(*shown));
     mView = spec.view;
     if (Result<void> loaded = loadDirt(spec); !loaded) return loaded;
+    if (Result<void> loaded = loadPasses(spec); !loaded) return loaded;
     mSpec = spec;
     setBack(0); // the camera frames what is posed
     mLastCamera = mView.camera = cameraOf(spec, mShown->scene.bounds());

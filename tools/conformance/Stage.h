@@ -63,6 +63,7 @@ private:
           DefectTrace* trace);
 
     Result<void> loadDirt(SceneSpec const& spec);
+    Result<void> loadPasses(SceneSpec const& spec);
     /// Where everything is `frames` before the last one.
     void setBack(uint32_t frames);
     void drawOverlays();
@@ -76,6 +77,7 @@ private:
     std::optional<ShownScene> mShown;
     Owned<SwapChain> mTarget;
     Owned<Texture> mDirt;
+    tools::ScenePasses mPasses;
     View mView;
     Camera mLastCamera; ///< of the last frame
     SceneSpec mSpec;

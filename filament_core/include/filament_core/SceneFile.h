@@ -25,6 +25,7 @@
 #include <filament_core/Light.h>
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Objects.h>
+#include <filament_core/PostProcess.h>
 #include <filament_core/ReflectionProbe.h>
 #include <filament_core/Result.h>
 #include <filament_core/SkyDesc.h>
@@ -104,6 +105,14 @@ struct SceneFileCamera {
     Lens lens{ .verticalFovDegrees = 40 };
 };
 
+/// A pass of the app over the picture: View::postProcess.
+struct SceneFilePass {
+    std::string material{}; ///< of domain postprocess, as the scene names it
+    PassPlace place = PassPlace::BeforeToneMapping;
+    /// Parameters and constants by name, as words: "0.5", "1,0,0.2"; textures by the names of the program.
+    std::vector<std::pair<std::string, std::string>> values{};
+};
+
 /// A view over the image: of the same scene, in a part of it.
 struct SceneFileOverlay {
     View view{}; ///< without its camera
@@ -138,6 +147,7 @@ struct SceneFileContents {
     std::string look{};                       ///< a .cube file; empty: none
     std::string dirt{};                       ///< an image for Bloom::dirt; empty: none
     uint2 target{ 0 };                        ///< pixels of the target that the view is a part of; 0: its size
+    std::vector<SceneFilePass> passes{};      ///< over the picture of the view, in this order
     std::vector<SceneFileOverlay> overlays{}; ///< over the last frame, in this order
     DebugDraw debug{};                        ///< over all frames
     bool isLinear = false;                    ///< scene-linear half floats: no tone mapping
