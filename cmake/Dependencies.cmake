@@ -63,6 +63,10 @@ target_link_libraries(asset_codecs INTERFACE
     nlohmann_json::nlohmann_json draco::draco meshoptimizer PNG::PNG JPEG::JPEG ZLIB::ZLIB
     PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
+# filament-server's HTTP.
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+add_library(cpp_httplib ALIAS PkgConfig::HTTPLIB)
+
 # The reference renderer's ray tracer, version 4 or 3. Its CMake package requires TBB's headers, which are not needed here.
 find_path(EMBREE_HEADERS rtcore.h PATH_SUFFIXES embree4 embree3 REQUIRED)
 find_library(EMBREE_LIBRARY NAMES embree4 embree3 REQUIRED)

@@ -3,7 +3,8 @@
 #   runtime      the shared library: what programs need to run
 #   development  headers, archives, CMake and pkg-config files
 #   jobsystem    the job system alone, usable without the others
-#   tools        matc, matinfo, cmgen, filament-bake, imgdiff, filament-render, filament-view, filament-replay, filament-reference
+#   tools        matc, matinfo, cmgen, filament-bake, imgdiff, filament-render, filament-view, filament-replay, filament-reference,
+#                filament-server
 #   python       the Python module, in the folder of Debian's packages (FILAMENT_PYTHON)
 #   docs         licence, documentation, samples
 # The target `uninstall` removes what this build folder installed last.
@@ -15,7 +16,8 @@ endif()
 if(FILAMENT_PYTHON)
     list(APPEND FILAMENT_COMPONENTS python)
 endif()
-set(FILAMENT_TOOLS matc matinfo cmgen filament-bake imgdiff filament-render filament-view filament-replay filament-reference)
+set(FILAMENT_TOOLS matc matinfo cmgen filament-bake imgdiff filament-render filament-view filament-replay filament-reference
+    filament-server)
 set(FILAMENT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/filament_core)
 set(templates ${CMAKE_SOURCE_DIR}/cmake)
 set(generated ${CMAKE_BINARY_DIR}/package)

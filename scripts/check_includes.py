@@ -90,7 +90,8 @@ TOOLKIT = {
 }
 # Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
 PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff",
-            "tools/ltcfit", "tools/matc", "tools/matinfo", "tools/numerics", "tools/replay", "tools/tables", "tools/view"]
+            "tools/ltcfit", "tools/matc", "tools/matinfo", "tools/numerics", "tools/replay", "tools/server",
+            "tools/tables", "tools/view"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
 # A public header lies in the lowest room that uses it; users see one folder, <filament_core/...>.
@@ -117,6 +118,7 @@ LIBRARIES = {
     r"nlohmann/": ["filament_core/assets/files", "filament_core/scenefile", "filament_core/assets/gltf", "filament_core/assets/tables", "toolkit", "tools",
                    "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
+    r"httplib\.h": ["tools"],
     r"CLI/": ["tools", "toolkit"],
     r"embree\d?/": ["tools", "toolkit"],
     r"imgui": ["tools", "tests"],

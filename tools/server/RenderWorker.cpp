@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/server/RenderWorker.h"
+
+#include "tools/server/FolderWatch.h"
+
+#include <filament_core/Image.h>
+#include <filament_core/Renderer.h>
+
+#include <fmt/format.h>
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+namespace filament_core::server {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLookAgain(1000);
+
+double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Since the file was last written: when the job was accepted.
+double ageOf(fs::path const& file) {
+    std::error_code error;
+    const fs::file_time_type written = fs::last_write_time(file, error);
+    return error ? 0 : std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count();
+}
+
+/// The fault of who sent it, or of this machine.
+int statusOf(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::InvalidArgument:
+    case ErrorCode::NotFound:
+    case ErrorCode::Corrupt:
+    case ErrorCode::Unsupported:
+    case ErrorCode::Unreadable:
+        return 400;
+    default:
+        return 500;
+    }
+}
+
+/// Frames before the last give effects over time what they accumulate.
+Result<Image> imageOf(Engine& engine, BuiltScene const& built, SceneFileContents const& contents, ImageFormat format) {
+    Renderer renderer(engine);
+    const bool isLinear = format == ImageFormat::Exr;
+    const Owned<SwapChain> frames = engine.own(engine.create(
+            SwapChainDesc{ .size = built.view.size, .format = isLinear ? Format::RGBA16F : Format::RGBA8 }));
+    View view = built.view;
+    for (uint32_t frame = 0; frame < contents.frames; ++frame) {
+        view.timeSeconds = built.view.timeSeconds - (contents.frames - 1 - frame) * contents.secondsPerFrame;
+        renderer.render(built.scene, view, frames);
+    }
+    return renderer.waitPixels(renderer.readPixels(frames));
+}
+
+} // namespace
+
+Result<Engine*> RenderWorker::engineOf(Backend api) {
+    if (const auto known = mEngines.find(api); known != mEngines.end()) return &known->second;
+    Result<Engine> engine = Engine::create({ .backend = api, .workers = 0 });
+    if (!engine) return engine.error();
+    return &mEngines.emplace(api, std::move(*engine)).first->second;
+}
+
+Result<std::vector<std::byte>> RenderWorker::draw(RenderRequest const& request) {
+    const Result<Engine*> engine = engineOf(request.api);
+    if (!engine) return engine.error();
+    const Result<BuiltScene> built = buildScene(**engine, request.scene, buildOptions(mLimits, request.scene));
+    if (!built) return built.error();
+    const Result<Image> image = imageOf(**engine, *built, request.scene.contents(), request.format);
+    if (!image) return image.error();
+    const fs::path file = mSpool.doneFolder().parent_path() / fmt::format("worker-{}.image", ::getpid());
+    const Result<void> saved = request.format == ImageFormat::Png ? savePng(file, *image) : saveExr(file, *image);
+    if (!saved) return saved.error();
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<char> bytes(std::istreambuf_iterator<char>(in), {});
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    const auto first = reinterpret_cast<const std::byte*>(bytes.data());
+    return std::vector<std::byte>(first, first + bytes.size());
+}
+
+Result<void> RenderWorker::handle(ClaimedJob const& job) {
+    JobOutcome outcome{ .error = {}, .contentType = {}, .queuedSeconds = ageOf(job.file) };
+    const Clock::time_point begin = Clock::now();
+    std::vector<std::byte> image;
+    const Result<RenderRequest> request = parseRequest(job.request, mLimits);
+    Result<std::vector<std::byte>> drawn = request ? draw(*request) : Result<std::vector<std::byte>>(request.error());
+    if (drawn) {
+        image = std::move(*drawn);
+        outcome.contentType = contentType(request->format);
+    } else {
+        outcome.status = statusOf(drawn.error().code);
+        outcome.error = drawn.error().message;
+        if (outcome.status == 500 && request) mEngines.erase(request->api); // the next job has another one
+    }
+    outcome.renderSeconds = secondsSince(begin);
+    return mSpool.finish(job, outcome, image);
+}
+
+Result<void> RenderWorker::run() {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // a job of a worker whose server has ended would be drawn twice
+    const pid_t parent = ::getppid();
+    FolderWatch watch(mSpool.queuedFolder());
+    for (;;) {
+        if (::getppid() != parent) return {}; // it ended before the line above
+        const Result<std::optional<ClaimedJob>> job = mSpool.claim();
+        if (!job) return job.error();
+        if (!*job) {
+            watch.wait(kLookAgain);
+            continue;
+        }
+        if (Result<void> done = handle(**job); !done) return done;
+    }
+}
+
+} // namespace filament_core::server
