@@ -53,7 +53,7 @@ InteriorCase tokyo() {
     made.exposure = { .aperture = 8, .shutterSeconds = 1.0f / 125, .iso = 100 };
     made.grid = { { -85, 0, -25 }, { 280, 230, 280 } };
     made.probes = { { { -20, -120, 130 }, { 120, 90, 90 } } };
-    made.texelsPerMeter = 0.4;
+    made.texelsPerMeter = 0.8;
     made.texelSamples = 32;
     made.gridSpacing = 50;
     return made;
