@@ -13,6 +13,7 @@
 #include "filament_core/assets/gltf/GltfProfiles.h"
 #include "filament_core/assets/gltf/GltfTextures.h"
 #include "filament_core/assets/gltf/GltfUri.h"
+#include "filament_core/assets/gltf/MeshFileModel.h"
 
 #include <exception>
 #include <mutex>
@@ -191,9 +192,23 @@ GltfDocument loadDocument(std::span<const std::byte> file, GltfFolder const& fol
     return document;
 }
 
+/// An .obj, .ply or .stl as a .glb, which the document refers to; empty: the file is another one.
+std::vector<std::byte> convertMeshFile(std::span<const std::byte> file, GltfFolder const& folder,
+                                       GltfOptions const& options, Diagnostics& diagnostics) {
+    const std::optional<MeshFormat> format = meshFormatOf(options.name);
+    if (!format) return {};
+    Result<std::vector<std::byte>> glb = glbOfMeshFile(file, *format, folder, diagnostics);
+    if (glb) return std::move(*glb);
+    diagnostics.refuse(glb.error());
+    return {};
+}
+
 ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
                GltfOptions const& options, Diagnostics& diagnostics) {
     Progress structure(options, GltfStage::Structure, 1);
+    if (!goesOn(options, diagnostics)) return {};
+    const std::vector<std::byte> converted = convertMeshFile(file, folder, options, diagnostics);
+    if (!converted.empty()) file = converted;
     if (!goesOn(options, diagnostics)) return {};
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!goesOn(options, diagnostics)) return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfLoader: loads a glTF 2.0 file, .gltf or .glb, as ModelData.
+/// GltfLoader: loads a glTF 2.0 file, .gltf or .glb, as ModelData; by its ending also an .obj, .ply or .stl
+/// (MeshFileModel.h).
 ///   In      any file; the content is untrusted. External buffers and images are beside or below it (see GltfUri.h).
 ///   Out     the default scene. Default morph weights and the skins' rest pose are applied, or, with
 ///           GltfOptions::deformation, skins, morph targets and animations are kept as data. Only what the scene shows

@@ -58,7 +58,7 @@ std::optional<PictureFormat> pictureFormatOf(std::filesystem::path const& file) 
 FileKind kindOf(std::filesystem::path const& file) {
     const std::string ending = endingInLowerCase(file);
     const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
-    if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
+    if (isOneOf(".gltf", ".glb", ".obj", ".ply", ".stl", ".mat", ".fmat")) return FileKind::Model;
     if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;
     if (isOneOf(".ktx2")) return kindOfKtx2(file);
     if (isOneOf(".png", ".jpg", ".jpeg", ".webp", ".avif")) return FileKind::Picture;

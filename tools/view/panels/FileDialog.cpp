@@ -14,8 +14,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kOpenEndings{ ".gltf"sv, ".glb"sv,  ".mat"sv,  ".fmat"sv, ".hdr"sv,
-                                   ".exr"sv,  ".ktx2"sv, ".fenv"sv, ".json"sv };
+constexpr std::array kOpenEndings{ ".gltf"sv, ".glb"sv, ".obj"sv, ".ply"sv,  ".stl"sv,  ".mat"sv,
+                                   ".fmat"sv, ".hdr"sv, ".exr"sv, ".ktx2"sv, ".fenv"sv, ".json"sv };
 constexpr std::array kPathEndings{ ".json"sv };
 constexpr std::array kPictureEndings{ ".png"sv, ".exr"sv };
 constexpr size_t kRowsOfPage = 10;
