@@ -131,8 +131,8 @@ Result<void> convertSize(std::string const& word, uint2& size) {
 void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& options) {
     app.helpFlag("--help", "print this text");
     app.option("MODEL", words.model,
-               ".gltf or .glb; filament-render and filament-view also draw .mat and .fmat; without one the "
-               "showcase is drawn")
+               ".gltf, .glb, .obj, .ply or .stl; filament-render and filament-view also draw .mat and .fmat, and "
+               "filament-render a scene file (.json); without one the showcase is drawn")
             .typeName("");
     app.option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
     app.option("--environment", words.environment,

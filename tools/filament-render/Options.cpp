@@ -232,6 +232,53 @@ void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--require-device", words.requireDevice, "fail unless the device's name contains this");
 }
 
+/// Of a scene file --set edits keys, and the file says what the other options of a scene would.
+Result<void> convertSceneFile(SceneWords& words, Words const& own, Options& options) {
+    if (std::filesystem::path(words.model).extension() != ".json") return {};
+    for (std::string const& word : std::exchange(words.set, {})) {
+        const size_t equals = word.find('=');
+        if (equals == std::string::npos) return invalidOption("--set", word, "KEY=VALUE, see docs/scene-files.md");
+        options.sceneEdits.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    }
+    const SceneWords usual{};
+    const std::pair<const char*, bool> given[] = {
+        { "--environment", !words.environment.empty() },
+        { "--size", words.size != usual.size },
+        { "--fov", words.fov != usual.fov },
+        { "--ibl-intensity", words.iblIntensity != usual.iblIntensity },
+        { "--skybox", !words.skybox.empty() },
+        { "--ground", words.ground != usual.ground },
+        { "--look", !words.look.empty() },
+        { "--dither", !words.dither.empty() },
+        { "--eye", !words.eye.empty() },
+        { "--at", !words.at.empty() },
+        { "--exposure", !words.exposure.empty() },
+        { "--sun", !words.sun.empty() },
+        { "--preset", !words.preset.empty() },
+        { "--quality", !words.quality.empty() },
+        { "--tone-mapper", words.toneMapper != usual.toneMapper },
+        { "--variant", !options.variant.empty() },
+        { "--sky", !own.sky.empty() },
+        { "--parameter", !own.values.empty() },
+        { "--copies", own.copies != "1" },
+        { "--frames", own.frames != "1" },
+        { "--time", !own.time.empty() },
+        { "--animation", !own.animation.empty() },
+        { "--aovs", !own.aovs.empty() },
+        { "--budget", !own.budget.empty() },
+        { "--measure-costs", !own.measureCosts.empty() },
+        { "--save-look", !own.saveLook.empty() },
+        { "--save-frame", !own.saveFrame.empty() },
+    };
+    for (auto const& [name, isGiven] : given)
+        if (isGiven)
+            return fail(ErrorCode::InvalidArgument,
+                        "{}: '{}' is a scene file: leave it out, or change a key of the file, as --set "
+                        "camera.eye=0,1,4 does",
+                        name, words.model);
+    return {};
+}
+
 } // namespace
 
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
@@ -252,6 +299,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.traceJobs = words.traceJobs;
     options.saveFrame = words.saveFrame;
     if (argc > 1) options.arguments.assign(argv + 1, argv + argc);
+    if (const Result<void> done = convertSceneFile(sceneWords, words, options); !done) return done.error();
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
     for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertAovs,
                           convertShares, convertTime, convertSky }) {

@@ -26,9 +26,10 @@ struct Options : SceneOptions {
     std::optional<SkyDesc> sky; ///< in the place of an environment's file; iblIntensity is that of its radiances
     bool skyFog = false;        ///< the fog of its air
     uint32_t frames = 1;
-    std::vector<std::pair<std::string, std::string>> values; ///< for the parameters of a material
-    uint32_t copies = 1;                                     ///< of the model, on a grid
-    uint32_t tolerance = 0;                                  ///< in 1/255
+    std::vector<std::pair<std::string, std::string>> values;     ///< for the parameters of a material
+    std::vector<std::pair<std::string, std::string>> sceneEdits; ///< keys of a scene file, where the model is one
+    uint32_t copies = 1;                                         ///< of the model, on a grid
+    uint32_t tolerance = 0;                                      ///< in 1/255
     PictureFormat format = PictureFormat::Png;
     std::vector<Aov> aovs{};             ///< layers of DIR/API.aovs.exr, each once; empty: none
     std::optional<ShareTerms> shares{};  ///< of the picture in DIR/API.shares.exr; none: no such file

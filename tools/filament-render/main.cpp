@@ -16,6 +16,7 @@
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/filament-render/SaveFrame.h"
+#include "tools/filament-render/SceneFileRun.h"
 #include "tools/filament-render/ShareFiles.h"
 
 #include <filament_core/Look.h>
@@ -56,7 +57,9 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
     std::vector<BackendRun> runs;
     Options wanted = options;
     for (const Backend backend : options.backends) {
-        Result<BackendRun> run = runBackend(wanted, backend, files.model, files.environment);
+        Result<BackendRun> run = isSceneFile(options.model)
+                                         ? runSceneFile(options, backend)
+                                         : runBackend(wanted, backend, files.model, files.environment);
         clearProgress();
         if (!run) {
             note(run.error().message);
@@ -113,7 +116,8 @@ Result<void> writeCosts(Options const& options, std::vector<BackendRun> const& r
 
 int render(Options const& options) {
     if (const Result<void> made = makeOutFolder(options); !made) return failed(made.error());
-    const Result<showcase::Files> files = chooseFiles(options);
+    const Result<showcase::Files> files =
+            isSceneFile(options.model) ? showcase::Files{ options.model, {} } : chooseFiles(options);
     if (!files) return failed(files.error());
 
     if (!options.saveLook.empty()) {

@@ -8,7 +8,6 @@
 namespace filament_core::tools {
 namespace {
 
-using assets::Image;
 using assets::ModelData;
 using Rule = PlausibilityRule;
 using testing::AllOf;
@@ -18,8 +17,8 @@ struct Texel {
     int red, green, blue, alpha = 255;
 };
 
-Image imageFrom(uint32_t width, std::vector<Texel> const& texels, bool isColor) {
-    Image image{ .width = width, .height = static_cast<uint32_t>(texels.size()) / width, .data = {} };
+assets::Image imageFrom(uint32_t width, std::vector<Texel> const& texels, bool isColor) {
+    assets::Image image{ .width = width, .height = static_cast<uint32_t>(texels.size()) / width, .data = {} };
     image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
     for (Texel const& texel : texels)
         for (const int code : { texel.red, texel.green, texel.blue, texel.alpha })
@@ -32,7 +31,7 @@ assets::TextureRef repeated(uint32_t image) {
 }
 
 /// A dielectric without maps.
-ModelData modelOf(std::function<void(assets::MaterialData&)> const& change, std::vector<Image> images = {}) {
+ModelData modelOf(std::function<void(assets::MaterialData&)> const& change, std::vector<assets::Image> images = {}) {
     ModelData model;
     model.images = std::move(images);
     assets::MaterialData& material = model.materials.emplace_back();
