@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The extension module filament_core._core; filament_core/__init__.py is what programs import.
-#include "python/Bindings.h"
+#include "python/SceneFiles.h"
 
 PYBIND11_MODULE(_core, module) {
     using namespace filament_core::python;
@@ -12,5 +12,6 @@ PYBIND11_MODULE(_core, module) {
     bindMeshes(module, engine);
     bindScene(module);
     bindRenderer(module);
+    bindSceneFiles(module);
     bindCompare(module);
 }

@@ -71,6 +71,7 @@ class Stubs(unittest.TestCase):
         for kind, node in classes.items():
             for name, item in members_of(node).items():
                 member = vars(getattr(fc, kind)).get(name)
+                member = member.__func__ if isinstance(member, staticmethod) else member
                 if isinstance(item, ast.FunctionDef) and name not in SPECIAL - {"__init__"} and callable(member):
                     self.assertEqual(parameters_of(item), declared_parameters(member), f"{kind}.{name}")
 
