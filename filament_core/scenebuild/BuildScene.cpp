@@ -91,7 +91,8 @@ private:
 
     Result<void> addCopy(BuiltScene& built, SceneFileModel const& model, SceneFileCopy const& copy) const {
         Scene& scene = built.scene;
-        const double4x4 place = glm::translate(double4x4(1.0), mContents.origin) * copy.worldFromModel;
+        double4x4 place = glm::translate(double4x4(1.0), mContents.origin) * copy.worldFromModel;
+        if (copy.isFitted) place = place * fitToUnitCube(built.models.back().bounds());
         const Node root = built.copies.back().emplace_back(scene.add(built.models.back(), place));
         if (copy.lightChannels != kDefaultLightChannels) scene.setLightChannels(root, copy.lightChannels);
         scene.setLayers(root, kAllLayers, copy.layers);

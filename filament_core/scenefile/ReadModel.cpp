@@ -23,6 +23,7 @@ void readCopy(JsonReader& reader, SceneFileCopy& copy) {
     world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
     world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
     copy.worldFromModel = glm::scale(world, scale);
+    reader.read("fit", copy.isFitted);
     readLightChannels(reader, copy.lightChannels);
     readBits(reader, "layers", copy.layers);
     uint32_t priority = DrawOrder{}.priority, blendOrder = 0;

@@ -26,6 +26,8 @@ Result<void> readModel(SceneSpec& spec, std::vector<SceneFileModel> const& model
     spec.modelOptions = model.options;
     spec.animationSeconds = model.animationSeconds;
     spec.animation = model.animation;
+    if (std::ranges::any_of(model.copies, &SceneFileCopy::isFitted))
+        return fail(ErrorCode::InvalidArgument, "{}: copies: 'fit' is not compared", spec.name);
     for (SceneFileCopy const& copy : model.copies) {
         spec.copies.push_back(copy.worldFromModel);
         spec.copyChannels.push_back(copy.lightChannels);

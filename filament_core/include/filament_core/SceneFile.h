@@ -32,6 +32,7 @@
 #include <filament_core/Stencil.h>
 #include <filament_core/View.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -53,6 +54,7 @@ struct SceneFileRaster {
 /// One place of a model.
 struct SceneFileCopy {
     double4x4 worldFromModel{ 1.0 };
+    bool isFitted = false; ///< first the centre of the model moves to the origin, its largest dimension becomes 1 m
     double3 metersPerFrame{ 0 }; ///< how it moves; in the last frame it is in its place
     LightChannels lightChannels = kDefaultLightChannels;
     Layers layers = kDefaultLayers;

@@ -9,6 +9,7 @@
 #include <filament_core/Renderer.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -85,6 +86,17 @@ TEST_F(BuildSceneTest, SaysWhatItCannotBuild) {
               std::string::npos);
     EXPECT_NE(refusal(R"({"environment": {"file": "none.hdr"}})").find("none.hdr"), std::string::npos);
     EXPECT_EQ(refusal("{}"), "was built");
+}
+
+TEST_F(BuildSceneTest, AFittedCopyIsAMetreLarge) {
+    SceneFile file = SceneFile::parse(R"({"copies": [{"fit": true, "at": [10, 0, 0], "scale": [2, 2, 2]}]})").value();
+    ASSERT_TRUE(file.set("model", (tools::sourceDir() / "samples/animated_gltf/windmill.gltf").string()).ok());
+    const Result<BuiltScene> built = buildScene(engine(), file);
+    ASSERT_TRUE(built.ok()) << built.error().message;
+    const Box bounds = built->scene.bounds();
+    const double3 size = bounds.max - bounds.min, middle = (bounds.max + bounds.min) * 0.5;
+    EXPECT_NEAR(std::max({ size.x, size.y, size.z }), 2, 1e-3) << "one metre, scaled by two";
+    EXPECT_NEAR(middle.x, 10, 1e-3);
 }
 
 TEST_F(BuildSceneTest, AnEditShows) {
