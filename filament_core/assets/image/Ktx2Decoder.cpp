@@ -91,6 +91,8 @@ private:
                                         : (mTexture.isSrgb ? Format::RGBA8Srgb : Format::RGBA8);
         mIsKept = mOptions.keepsBc7 && !mOptions.isOneLevel && isWholeBc7();
         if (mIsKept) mTexture.image.format = mTexture.isSrgb ? Format::BC7Srgb : Format::BC7;
+        if (mOptions.keepsBc6 && mFormat.block && mFormat.block->kind == BlockKind::Bc6 && !isArranged(mFile))
+            mIsKept = true, mTexture.image.format = Format::BC6HUfloat;
         return {};
     }
 

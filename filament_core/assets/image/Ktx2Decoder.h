@@ -6,8 +6,8 @@
 ///           Two-dimensional textures, arrays and cubes. Not video, nor colours that are multiplied by alpha.
 ///   Out     RGBA8 where 8 bits hold all of it, RGBA8Srgb if the file is sRGB; otherwise RGBA16F, or on request
 ///           RGBA32F. KTXswizzle and KTXorientation are applied. Row 0 is at the top, faces are +x -x +y -y +z
-///           -z. On request BC7 or BC7Srgb instead, without decoding (keepsBc7). Of Basis textures, by the channels
-///           of their descriptor:
+///           -z. On request BC7, BC7Srgb or BC6HUfloat instead, without decoding (keepsBc7, keepsBc6). Of Basis
+///           textures, by the channels of their descriptor:
 ///             ETC1S  RGB: r g b 1.  RGB, AAA: r g b a.  RRR: r r r 1.  RRR, GGG: r r r g.
 ///             UASTC  RGB: r g b 1.  RGBA: r g b a.  RRR: r r r 1.  RRRG: r r r g.  RG: r g 0 1.
 ///   Thread  any; no shared state.
@@ -30,6 +30,8 @@ struct Ktx2Options {
     bool isOneLevel = false; ///< leaves out all levels but the first
     /// Blocks of BC7 stay as they are, if the file has all levels, down to 1 x 1, and its texels need no rearrangement.
     bool keepsBc7 = false;
+    /// As keepsBc7, for blocks of BC6H without a sign, whatever the levels of the file.
+    bool keepsBc6 = false;
 };
 
 struct Ktx2Texture {

@@ -18,13 +18,16 @@ struct EncodedFormat {
     Format format;
     uint32_t vkFormat, typeSize;
 };
-constexpr std::array<EncodedFormat, 6> kEncodedFormats{ {
+constexpr std::array<EncodedFormat, 9> kEncodedFormats{ {
+        { Format::R8, 9, 1 },
         { Format::RGBA8, 37, 1 },
         { Format::RGBA8Srgb, 43, 1 },
         { Format::RGBA16F, 97, 2 },
         { Format::RGBA32F, 109, 4 },
         { Format::R11G11B10F, 122, 4 },
         { Format::RGB9E5, 123, 4 },
+        { Format::BC4, 139, 1 },
+        { Format::BC6HUfloat, 143, 1 },
 } };
 
 /// Where a channel lies in a texel, and which numbers stand for the ends of its range.
@@ -49,6 +52,9 @@ std::vector<DescribedSample> samplesOf(Format format) {
         }
         return samples;
     }
+    if (format == Format::R8) return { { 0, 8, 0, 0, 255 } };
+    if (format == Format::BC4) return { { 0, 64, 0, 0, ~0u } }; // chapter 5.6: one sample for each block
+    if (format == Format::BC6HUfloat) return { { 0, 128, kFloatSample, 0, kOneBits } };
     const bool isFloat = format == Format::RGBA16F || format == Format::RGBA32F;
     const uint32_t bits = format == Format::RGBA32F ? 32 : format == Format::RGBA16F ? 16 : 8;
     for (uint32_t c = 0; c < 4; ++c) {
@@ -67,17 +73,24 @@ void putBytes(KtxBytes& bytes, std::span<const std::byte> more) { bytes.insert(b
 
 uint64_t roundedUp(uint64_t value, uint64_t step) { return (value + step - 1) / step * step; }
 
+/// Colour models of the Khronos Data Format Specification.
+uint32_t modelOf(Format format) {
+    constexpr uint32_t kRgbsda = 1, kBc4 = 131, kBc6h = 133;
+    return format == Format::BC4 ? kBc4 : format == Format::BC6HUfloat ? kBc6h : kRgbsda;
+}
+
 KtxBytes descriptionOf(Format format) {
-    constexpr uint32_t kVersion = 2, kRgbsda = 1, kBt709 = 1;
+    constexpr uint32_t kVersion = 2, kBt709 = 1;
     const std::vector<DescribedSample> samples = samplesOf(format);
     const size_t block = 24 + 16 * samples.size();
     KtxBytes bytes;
     putNumber(bytes, 4 + block, 4);
     putNumber(bytes, 0, 4), putNumber(bytes, kVersion, 2), putNumber(bytes, block, 2);
-    putNumber(bytes, kRgbsda, 1), putNumber(bytes, kBt709, 1);
+    putNumber(bytes, modelOf(format), 1), putNumber(bytes, kBt709, 1);
     putNumber(bytes, format == Format::RGBA8Srgb ? Ktx2Description::kSrgb : Ktx2Description::kLinear, 1);
-    putNumber(bytes, 0, 1);                                                                 // straight alpha
-    putNumber(bytes, 0, 4);                                                                 // blocks of 1 x 1
+    putNumber(bytes, 0, 1);                                           // straight alpha
+    const uint32_t last = backend::formatInfo(format).blockSize - 1u; // blocks of 1 x 1 or 4 x 4
+    putNumber(bytes, last, 1), putNumber(bytes, last, 1), putNumber(bytes, 0, 2);
     putNumber(bytes, backend::formatInfo(format).bytesPerBlock, 1), putNumber(bytes, 0, 7); // one plane
     for (DescribedSample const& sample : samples) {
         putNumber(bytes, sample.firstBit, 2), putNumber(bytes, sample.bits - 1, 1), putNumber(bytes, sample.channel, 1);

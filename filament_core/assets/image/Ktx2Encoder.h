@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// encodeKtx2: an image as a KTX 2.0 file with its texels as they are. KTX File Format Specification 2.0; the data
 /// format descriptor is that of the Khronos Data Format Specification 1.3, chapter 5.
-///   In      an image (one layer) or a cube (six), with any number of levels; RGBA8 (data), RGBA8Srgb, RGBA16F,
-///           RGBA32F, R11G11B10F or RGB9E5. Other shapes and formats are bugs of the caller.
+///   In      an image (one layer) or a cube (six), with any number of levels; R8, RGBA8 (data), RGBA8Srgb, RGBA16F,
+///           RGBA32F, R11G11B10F, RGB9E5, or blocks of BC4 and BC6HUfloat. Other shapes and formats are bugs of the
+///           caller.
 ///   Out     the file; the same bytes for the same input. readKtx2() finds every level and pair as it was given.
 ///   Thread  any; pure.  Memory: the file.  Fails: never.
 #pragma once

@@ -81,9 +81,12 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
     const uint32_t all = backend::fullMipCount(file->width, file->height);
     // light keeps the levels of its file, though they may be few
     const bool isWhole = file->levels.size() == all || depth == TextureDepth::Floats;
-    Result<Ktx2Texture> texture = decodeKtx2(
-            bytes, name,
-            { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole, .keepsBc7 = blocks == TextureBlocks::KeptBc7 });
+    Result<Ktx2Texture> texture =
+            decodeKtx2(bytes, name,
+                       { .maxSize = isWhole ? maxSize : 0,
+                         .isOneLevel = !isWhole,
+                         .keepsBc7 = blocks == TextureBlocks::KeptBc7,
+                         .keepsBc6 = blocks == TextureBlocks::KeptBc6 && depth == TextureDepth::Floats });
     if (!texture) return texture.error();
     const bool isFloat = backend::formatInfo(texture->image.format).isFloat;
     if (isFloat && depth == TextureDepth::Floats) return DecodedTexture{ .image = std::move(texture->image) };

@@ -21,7 +21,7 @@
 namespace filament_core::assets {
 
 struct DecodedTexture {
-    Image image;                  ///< RGBA8 or BC7, also of colours; RGBA16F if asked for; empty if `deep` is not
+    Image image; ///< RGBA8 or BC7, also of colours; RGBA16F or BC6HUfloat if asked for; empty if `deep` is not
     std::optional<bool> isSrgb{}; ///< what the file says of its colours, if it says it
     DeepImage deep{};             ///< an image with more than 8 bits a channel
 };
@@ -35,6 +35,7 @@ enum class TextureDepth : uint8_t {
 enum class TextureBlocks : uint8_t {
     Decoded,
     KeptBc7, ///< BC7 stays compressed, if the file has all levels and its texels need no rearrangement
+    KeptBc6, ///< BC6H of a KTX 2.0 file stays compressed, if floats are asked for and nothing needs rearrangement
 };
 
 /// `maxSize`: larger levels of the file are skipped; an image is not downscaled. 0: no limit.

@@ -2,6 +2,9 @@
 #include "filament_core/assets/image/TexturePacking.h"
 
 #include "base/Assert.h"
+#include "base/math/Half.h"
+
+#include <cstring>
 
 namespace filament_core::assets {
 
@@ -16,6 +19,17 @@ Image packImages(Image first, Image const& second, PackLayout layout) {
     const size_t taken = layout == PackLayout::ColorAlpha ? 3 : 1;
     for (size_t i = taken; i < first.data.size(); i += kChannels) first.data[i] = second.data[i];
     return first;
+}
+
+Image withAlphaOf(Image halves, Image const& red) {
+    FILAMENT_ASSERT(halves.format == backend::Format::RGBA16F && red.format == backend::Format::RGBA8 &&
+                            halves.data.size() == 2 * red.data.size(),
+                    "withAlphaOf takes images of one size, the first with halves");
+    for (size_t i = 0; i < red.data.size(); i += 4) {
+        const uint16_t alpha = halfFromFloat(static_cast<float>(std::to_integer<int>(red.data[i])) / 255);
+        std::memcpy(&halves.data[2 * i + 6], &alpha, sizeof(alpha));
+    }
+    return halves;
 }
 
 } // namespace filament_core::assets

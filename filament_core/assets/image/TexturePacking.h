@@ -14,4 +14,7 @@ enum class PackLayout : uint8_t { RedGreen, ColorAlpha };
 
 Image packImages(Image first, Image const& second, PackLayout layout);
 
+/// RGBA16F whose alpha is the red of an RGBA8 image of its size, of which it has as many levels: code / 255.
+Image withAlphaOf(Image halves, Image const& red);
+
 } // namespace filament_core::assets

@@ -27,8 +27,8 @@ uint32_t wordAt(std::vector<std::byte> const& file, size_t at) {
 }
 
 TEST(Ktx2Encoder, EveryFormatAndShapeIsReadAsItWasWritten) {
-    for (const Format format :
-         { Format::RGBA8, Format::RGBA8Srgb, Format::RGBA16F, Format::RGBA32F, Format::R11G11B10F, Format::RGB9E5 }) {
+    for (const Format format : { Format::R8, Format::RGBA8, Format::RGBA8Srgb, Format::RGBA16F, Format::RGBA32F,
+                                 Format::R11G11B10F, Format::RGB9E5, Format::BC4, Format::BC6HUfloat }) {
         for (const uint32_t layers : { 1u, 6u }) {
             for (const uint32_t levels : { 1u, 2u, 3u }) {
                 const Image image = encodable(format, layers, levels);
