@@ -228,7 +228,8 @@ struct GltfMaterial {
 
 struct GltfTexture {
     uint32_t sampler = kNone;
-    uint32_t image = kNone; ///< kNone: the file offers none, or only formats that this loader cannot read
+    uint32_t image = kNone;    ///< kNone: the file offers none, or only formats that this loader cannot read
+    uint32_t openness = kNone; ///< FILAMENT_lightmap: an image whose red channel replaces alpha
 };
 
 /// Exactly one of the two is set.

@@ -72,7 +72,8 @@ struct Content {
     std::vector<GltfPrimitiveJob> primitives;
 
     size_t jobCount() const {
-        return textures.jobs.size() + textures.packs.size() + environment.faces.size() + primitives.size();
+        return textures.jobs.size() + textures.lights.size() + textures.packs.size() + environment.faces.size() +
+               primitives.size();
     }
 
     void mergeDiagnostics(Diagnostics& diagnostics) {
@@ -80,6 +81,7 @@ struct Content {
         // depend on which worker was first.
         for (GltfPrimitiveJob& job : primitives) diagnostics.merge(std::move(job.diagnostics));
         for (GltfImageJob& job : textures.jobs) diagnostics.merge(std::move(job.diagnostics));
+        for (GltfLightJob& job : textures.lights) diagnostics.merge(std::move(job.diagnostics));
         for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
         for (GltfFaceJob& job : environment.faces) diagnostics.merge(std::move(job.diagnostics));
     }
@@ -105,6 +107,13 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, Content& 
         group.run<"decode image">([&document, &textures, &options, &progress, &job] {
             if (isCancelled(options)) return;
             decodeImageJob(document, textures, options.maxTextureSize, options.blocks, job);
+            progress.step();
+        });
+    }
+    for (GltfLightJob& job : textures.lights) {
+        group.run<"decode light">([&document, &textures, &options, &progress, &job] {
+            if (isCancelled(options)) return;
+            decodeLightJob(document, textures, options.blocks, job);
             progress.step();
         });
     }

@@ -353,6 +353,7 @@ GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
         const uint32_t image = node.extension(extension)["source"].index(counts.images, "images");
         if (image != kNone) texture.image = image;
     }
+    texture.openness = node.extension("FILAMENT_lightmap")["openness"].index(counts.images, "images");
     return texture;
 }
 

@@ -2,6 +2,7 @@
 #include "filament_core/assets/gltf/GltfTextures.h"
 
 #include "filament_core/assets/image/ColorProfile.h"
+#include "filament_core/assets/image/Ktx2Decoder.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/assets/image/NormalVariance.h"
 #include "filament_core/assets/image/TextureDecoder.h"
@@ -43,7 +44,7 @@ public:
         }
         data.metallicRoughness = textureFor(material.metallicRoughness, Use::Data);
         resolveExtensions(material, data);
-        data.light.map = textureFor(material.light, Use::Light);
+        data.light.map = lightFor(material.light);
         return data;
     }
 
@@ -69,11 +70,26 @@ private:
         if (data.scatters()) data.volumeScatter.map = textureFor(material.multiscatter, Use::Color);
     }
 
-    enum class Use : uint8_t { Color, Data, Normals, Light };
+    enum class Use : uint8_t { Color, Data, Normals };
 
     TextureRef textureFor(GltfTextureInfo const& info, Use use) {
         TextureRef reference = referenceTo(info);
         if (reference.image != kNone) reference.image = slotFor(reference.image, use);
+        return reference;
+    }
+
+    TextureRef lightFor(GltfTextureInfo const& info) {
+        TextureRef reference = referenceTo(info);
+        if (reference.image == kNone) return reference;
+        const uint32_t openness = mDocument.textures[info.texture].openness;
+        const std::pair images(reference.image, openness == kNone ? kNone : mFirstOfSame[openness]);
+        const auto [entry, isNew] = mLights.try_emplace(images, mTextures.textureCount);
+        if (isNew) {
+            const uint32_t source = sourceFor(images.first);
+            const uint32_t alpha = images.second == kNone ? kNone : sourceFor(images.second);
+            mTextures.lights.push_back({ source, alpha, mTextures.textureCount++, {}, {} });
+        }
+        reference.image = entry->second;
         return reference;
     }
 
@@ -154,10 +170,7 @@ private:
             mTextures.jobs.emplace_back().source = source;
         }
         GltfImageJob& job = mTextures.jobs[mJobOfSource[source]];
-        uint32_t& slot = use == Use::Color     ? job.colorTexture
-                         : use == Use::Data    ? job.dataTexture
-                         : use == Use::Normals ? job.normalTexture
-                                               : job.lightTexture;
+        uint32_t& slot = use == Use::Color ? job.colorTexture : use == Use::Data ? job.dataTexture : job.normalTexture;
         if (slot == kNone) slot = mTextures.textureCount++;
         return slot;
     }
@@ -180,7 +193,8 @@ private:
     Diagnostics& mDiagnostics;
     std::vector<uint32_t> mFirstOfSame, mSourceOfImage; // by index in the document
     std::vector<uint32_t> mJobOfSource;
-    std::map<Packed, uint32_t> mPacked; // -> its slot
+    std::map<Packed, uint32_t> mPacked;                        // -> its slot
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> mLights; // light and openness -> its slot
 };
 
 Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize,
@@ -210,12 +224,32 @@ uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
 /// The smaller of two limits, of which 0 is none.
 uint32_t smallerLimit(uint32_t a, uint32_t b) { return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b); }
 
-/// Its levels are those of the file: others would mix charts, which lie apart by less than their texels.
-void decodeLight(GltfDocument const& document, GltfImageSource const& source, GltfImageJob& job) {
-    Result<DecodedTexture> texture = decode(document, source, 0, TextureDepth::Floats);
+void decodeLight(GltfDocument const& document, GltfTextures const& textures, GltfBlocks blocks, GltfLightJob& job) {
+    GltfImageSource const& source = textures.sources[job.source];
+    const bool isKept = blocks != GltfBlocks::None && job.openness == kNone;
+    Result<DecodedTexture> texture =
+            decode(document, source, 0, TextureDepth::Floats, isKept ? TextureBlocks::KeptBc6 : TextureBlocks::Decoded);
     if (!texture) return job.diagnostics.refuse(texture.error());
     const bool isFloat = backend::formatInfo(texture->image.format).isFloat;
-    job.light = isFloat ? std::move(texture->image) : withAllLevels(std::move(*texture), false, 0);
+    job.image = isFloat ? std::move(texture->image) : withAllLevels(std::move(*texture), false, 0);
+    if (job.openness == kNone) return;
+    GltfImageSource const& other = textures.sources[job.openness];
+    const std::string name = imageName(document, other.image);
+    Result<Ktx2Texture> openness = decodeKtx2(other.bytes, name);
+    if (!openness) return job.diagnostics.refuse(openness.error());
+    Image const& alpha = openness->image;
+    if (job.image.format != backend::Format::RGBA16F || alpha.format != backend::Format::RGBA8 || alpha.layers != 1)
+        return job.diagnostics.refuse(ErrorCode::Unsupported,
+                                      "{} is the openness of {}: that needs 8 bits a channel without sRGB, and light "
+                                      "needs floats; bake the model again",
+                                      name, imageName(document, source.image));
+    if (alpha.width != job.image.width || alpha.height != job.image.height || alpha.levels != job.image.levels)
+        return job.diagnostics.refuse(ErrorCode::Corrupt,
+                                      "{} has {} x {} texels with {} levels and its light {} has {} x {} with {}; bake "
+                                      "the model again",
+                                      name, alpha.width, alpha.height, alpha.levels, imageName(document, source.image),
+                                      job.image.width, job.image.height, job.image.levels);
+    job.image = withAlphaOf(std::move(job.image), alpha);
 }
 
 } // namespace
@@ -255,6 +289,10 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
     };
     for (GltfImageJob const& job : textures.jobs)
         pixels += job.useCount() * kept(textures.sources[job.source].size, job.maxSize);
+    for (GltfLightJob const& job : textures.lights) {
+        pixels += pixelsOf(textures.sources[job.source].size);
+        if (job.openness != kNone) pixels += pixelsOf(textures.sources[job.openness].size);
+    }
     for (GltfPackJob const& job : textures.packs) pixels += kept(textures.sources[job.first].size, job.maxSize);
     if (pixels > kMaxImagePixels)
         diagnostics.refuse(ErrorCode::Unsupported,
@@ -267,15 +305,13 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
     GltfImageSource const& source = textures.sources[job.source];
     maxSize = smallerLimit(maxSize, job.maxSize);
     try {
-        if (job.lightTexture != kNone) decodeLight(document, source, job);
-        if (job.useCount() == (job.lightTexture != kNone ? 1u : 0u)) return;
         const bool hasNormals = job.normalTexture != kNone; // of which the first level counts, even if it is dropped
         Result<DecodedTexture> texture =
                 decode(document, source, hasNormals ? 0 : maxSize, TextureDepth::AllBits, blocksOf(job, blocks));
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
         if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);
-        uint32_t uses = job.useCount() - (job.lightTexture != kNone ? 1u : 0u);
+        uint32_t uses = job.useCount();
         // An image may be both a colour and data. The last use takes it; only the others copy.
         const auto take = [&] { return --uses == 0 ? std::move(*texture) : *texture; };
         if (job.colorTexture != kNone) job.color = withAllLevels(take(), true, maxSize);
@@ -286,6 +322,17 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
                                source.image);
     } catch (std::exception const& exception) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", source.image, exception.what());
+    }
+}
+
+void decodeLightJob(GltfDocument const& document, GltfTextures const& textures, GltfBlocks blocks, GltfLightJob& job) {
+    const uint32_t image = textures.sources[job.source].image;
+    try {
+        decodeLight(document, textures, blocks, job);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again", image);
+    } catch (std::exception const& exception) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", image, exception.what());
     }
 }
 
@@ -318,8 +365,8 @@ std::vector<Image> collectImages(GltfTextures& textures) {
         if (job.colorTexture != kNone) images[job.colorTexture] = std::move(job.color);
         if (job.dataTexture != kNone) images[job.dataTexture] = std::move(job.data);
         if (job.normalTexture != kNone) images[job.normalTexture] = std::move(job.normals);
-        if (job.lightTexture != kNone) images[job.lightTexture] = std::move(job.light);
     }
+    for (GltfLightJob& job : textures.lights) images[job.texture] = std::move(job.image);
     for (GltfPackJob& job : textures.packs) images[job.texture] = std::move(job.image);
     return images;
 }

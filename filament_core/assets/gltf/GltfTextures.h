@@ -4,7 +4,8 @@
 ///   Out     materials in file order, and image jobs, one per image and use (images with the same bytes are one): an
 ///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
 ///           expects a pair of maps in one texture and the file has two that are read alike and have one size, they are
-///           packed, with one job per distinct pair; others stay apart. TextureRef::image is an index into the jobs'
+///           packed, with one job per distinct pair; others stay apart. Lightmaps have jobs of their own: half floats
+///           with the levels of the file. TextureRef::image is an index into the jobs'
 ///           textures, in order. With GltfNormals::WithVariance, normals are a third use: their alpha is filled. On
 ///           request, textures of BC7 with all levels stay compressed (GltfBlocks); what is packed or filled does not.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
@@ -24,13 +25,12 @@ namespace filament_core::assets {
 struct GltfImageJob {
     uint32_t source = 0;                                                       ///< index in GltfTextures::sources
     uint32_t colorTexture = kNone, dataTexture = kNone, normalTexture = kNone; ///< slots in ModelData::images
-    uint32_t lightTexture = kNone;
-    Image color, data, normals, light; ///< filled as requested
-    uint32_t maxSize = 0;              ///< larger levels are left out, whatever the options allow; 0: none are
+    Image color, data, normals;                                                ///< filled as requested
+    uint32_t maxSize = 0; ///< larger levels are left out, whatever the options allow; 0: none are
 
     uint32_t useCount() const {
         return (colorTexture != kNone ? 1u : 0u) + (dataTexture != kNone ? 1u : 0u) +
-               (normalTexture != kNone ? 1u : 0u) + (lightTexture != kNone ? 1u : 0u);
+               (normalTexture != kNone ? 1u : 0u);
     }
     Diagnostics diagnostics;
 };
@@ -44,11 +44,20 @@ struct GltfPackJob {
     Diagnostics diagnostics;
 };
 
+/// A lightmap. Its levels are those of the file: others would mix charts, which lie apart by less than their texels.
+struct GltfLightJob {
+    uint32_t source = 0, openness = kNone; ///< indices in GltfTextures::sources; openness: of its alpha, or kNone
+    uint32_t texture = 0;                  ///< slot in ModelData::images
+    Image image;                           ///< RGBA16F; BC6HUfloat on request, if its alpha is 1; RGBA8 of such a file
+    Diagnostics diagnostics;
+};
+
 struct GltfTextures {
     std::vector<MaterialData> materials;
     std::vector<GltfImageSource> sources; ///< all read before any job runs
     std::vector<GltfImageJob> jobs;
     std::vector<GltfPackJob> packs;
+    std::vector<GltfLightJob> lights;
     uint32_t textureCount = 0;
 };
 
@@ -62,6 +71,7 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);
 
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfBlocks blocks,
                     GltfImageJob& job);
+void decodeLightJob(GltfDocument const& document, GltfTextures const& textures, GltfBlocks blocks, GltfLightJob& job);
 void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job);
 
 /// All uses of an image come from one decoding.

@@ -114,6 +114,7 @@ private:
         if (!mark(GltfArray::Textures, info.texture)) return;
         mark(GltfArray::Samplers, mDocument.textures[info.texture].sampler);
         image(mDocument.textures[info.texture].image);
+        image(mDocument.textures[info.texture].openness);
     }
 
     void material(uint32_t index) {

@@ -18,7 +18,13 @@ namespace filament_core::assets::test {
 inline const char* brokenPromise(ModelData const& model, Image const& image) {
     if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels))
         return "image size";
-    if (image.levels != backend::fullMipCount(image.width, image.height)) return "mip chain";
+    const uint32_t full = backend::fullMipCount(image.width, image.height);
+    const auto isLight = [&](MaterialData const& material) {
+        const uint32_t index = material.light.map.image;
+        return index < model.images.size() && &model.images[index] == &image;
+    };
+    if (image.levels > full || (image.levels != full && std::ranges::none_of(model.materials, isLight)))
+        return "mip chain";
     return model.images.empty() ? "image list" : nullptr;
 }
 

@@ -180,6 +180,34 @@ inline Specimen lightSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
+/// Lightmaps: blocks with an openness in a file of its own, and shared exponents, with two levels of three.
+inline Specimen lightmapSpecimen() {
+    const Bytes bc6 = Ktx2Writer{
+        .format = 143, .width = 8, .height = 4, .levels = { Bytes(32, std::byte{ 0x63 }), Bytes(16) }
+    }.file();
+    const Bytes bc4 = Ktx2Writer{
+        .format = 139, .width = 8, .height = 4, .levels = { Bytes(16, std::byte{ 0x91 }), Bytes(8) }
+    }.file();
+    const Bytes shared = Ktx2Writer{
+        .format = 123, .width = 4, .height = 4, .levels = { Bytes(64, std::byte{ 0x7A }), Bytes(16) }
+    }.file();
+    TestFile file = TestFile::triangle();
+    file.attribute("TEXCOORD_0", std::vector<float>{ 0, 0, 1, 0, 0, 1 }, kFloat, "VEC2", 2);
+    file.indices({ 0, 1, 2 });
+    for (Bytes const& image : { bc6, bc4, shared })
+        file.root["images"].push_back({ { "bufferView", file.addView(image) } });
+    file.root["textures"] = Json::parse(R"([ { "extensions": { "FILAMENT_lightmap": { "source": 0, "openness": 1 } } },
+        { "extensions": { "FILAMENT_lightmap": { "source": 2 } } } ])");
+    file.root["materials"] = Json::parse(R"([
+        { "extensions": { "FILAMENT_lightmap": { "lightmapTexture": { "index": 0 }, "intensity": 16 } } },
+        { "extensions": { "FILAMENT_lightmap": { "lightmapTexture": { "index": 1 } } } } ])");
+    file.primitive()["material"] = 0;
+    file.root["meshes"][0]["primitives"].push_back(file.primitive());
+    file.root["meshes"][0]["primitives"][1]["material"] = 1;
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 /// A texture of ETC1S and one of UASTC.
 inline Specimen basisSpecimen() {
     BasisWriter writer(8, 8, false, 1);
@@ -267,8 +295,8 @@ inline Specimen splatSpecimen() {
 
 /// Written ones, and models of the asset folder if there is one.
 inline std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(),   basisSpecimen(),
-                                     pointerSpecimen(), restartSpecimen(), splatSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen(),   pointerSpecimen(),
+                                     restartSpecimen(), splatSpecimen(), lightmapSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
