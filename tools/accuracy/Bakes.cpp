@@ -58,7 +58,8 @@ Result<std::vector<std::byte>> bakeLightmap(Baker const& baker, double texelsPer
                          return true;
                      });
     const bake::LightmapImage image = bake::makeImage(*atlas, texels, lights);
-    return bake::writeBakedModel(baker.model, *atlas, { { assets::encodeKtx2(halvesOf(image)) }, image.intensity, false });
+    return bake::writeBakedModel(baker.model, *atlas,
+                                 { { assets::encodeKtx2(halvesOf(image)) }, {}, image.intensity, false });
 }
 
 Result<IrradianceGridDesc> bakeGrid(Baker const& baker, double meters, uint32_t paths) {

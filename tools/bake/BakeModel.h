@@ -48,9 +48,10 @@ Result<BakeModel> readBakeModel(std::filesystem::path const& path, jobs::JobSyst
 
 /// What materials say of the lightmap.
 struct LightmapEntry {
-    std::vector<std::vector<std::byte>> pages; ///< KTX 2.0 files
-    double intensity = 1;                      ///< lux that a texel of 1 stands for
-    bool hasDirectLight = false;               ///< of lamps
+    std::vector<std::vector<std::byte>> pages;    ///< KTX 2.0 files
+    std::vector<std::vector<std::byte>> openness; ///< as many, or none: images whose red replaces alpha
+    double intensity = 1;                         ///< lux that a texel of 1 stands for
+    bool hasDirectLight = false;                  ///< of lamps
 };
 
 Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light);

@@ -3,7 +3,7 @@
 ///   else.
 ///   Points  each independent of the others, evenly by area. They are traced with kHeldOutSamples times the paths of a
 ///           texel.
-///   Error   the difference of luminance between what the engine looks up (stored halves, bilinear) and what is traced.
+///   Error   the difference of luminance between what the engine looks up (as stored, bilinear) and what is traced.
 ///   Bound   what remains of it beyond two standard errors of the point's chart, at kBoundShare of the lit surface
 ///           (Tolerance.h). The noise of the traced light is part of it: the bound is rather too wide than too narrow.
 ///   Thread  any; pure: the same points for the same surfaces and seed.

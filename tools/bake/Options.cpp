@@ -4,6 +4,7 @@
 #include "toolkit/program/CommandLine.h"
 #include "toolkit/program/SceneOptions.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace filament_core::bake {
@@ -15,8 +16,8 @@ using tools::wholeNumber;
 
 struct Words {
     std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", maxPages = "16",
-                levels = "4", samples = "1024", error, maxBounces = "64", seed = "1", heldOut = "256", direct, shard,
-                threads;
+                levels = "4", store = "half", openness, samples = "1024", error, maxBounces = "64", seed = "1",
+                heldOut = "256", direct, shard, threads;
     std::string fov = "50", size = "480x272", spp = "64"; // of the report
     std::vector<std::string> sun, exposure, merge, eye, at;
 };
@@ -42,6 +43,11 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
             "--levels", words.levels,
             "mip levels of the lightmap; each needs more padding around its charts, from the fourth on twice as much "
             "(4; 1 to 6)");
+    app.option("--store", words.store,
+               "half (8 bytes a texel), rgb9e5 (5) or bc6h (1.5), with an error that the report states (half)");
+    app.option(
+            "--openness", words.openness,
+            "on or off: store the part of the sky that a texel sees, which dims reflections of the environment (on)");
     app.option("--samples", words.samples, "paths a texel; with --error the maximum (1024)");
     app.option("--error", words.error, "stop at a texel when its relative standard error is below this");
     app.option(
@@ -125,6 +131,10 @@ Result<void> convertLight(Words const& words, Options& options) {
     if (auto done = whole("--max-size", words.maxSize, 16, 16384, options.atlas.maxSide); !done) return done;
     if (auto done = whole("--max-pages", words.maxPages, 1, 256, options.atlas.maxPages); !done) return done;
     if (auto done = whole("--levels", words.levels, 1, kMostLevels, options.atlas.levels); !done) return done;
+    const auto format = std::ranges::find(kLightmapFormatNames, words.store);
+    if (format == kLightmapFormatNames.end()) return invalidOption("--store", words.store, "half, rgb9e5 or bc6h");
+    options.storage.format = static_cast<LightmapFormat>(format - kLightmapFormatNames.begin());
+    if (auto done = tools::convertSwitch("--openness", words.openness, options.storage.hasOpenness); !done) return done;
     if (auto done = whole("--samples", words.samples, kLeastPasses, 1u << 20, options.light.samplesPerTexel); !done)
         return done;
     if (auto done = whole("--max-bounces", words.maxBounces, 1, 4096, options.light.maxBounces); !done) return done;

@@ -7,6 +7,7 @@
 #include "toolkit/program/Shard.h"
 #include "tools/bake/Atlas.h"
 #include "tools/bake/BakeLight.h"
+#include "tools/bake/LightmapStore.h"
 
 #include <filament_core/Light.h>
 
@@ -33,6 +34,7 @@ struct Options {
     std::optional<SunLight> sun;
     AtlasOptions atlas{};
     uint32_t texels = 0; ///< a budget that Densities.h spends; 0: charts have the density of `atlas`
+    StorageChoice storage{};
     LightSettings light{ .exposure = { .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 } };
     uint32_t heldOutPoints = 256;             ///< of surfaces, between texels, that judge the lightmap
     std::filesystem::path grid;               ///< of an irradiance grid (GridProgram.h); empty: bake a lightmap

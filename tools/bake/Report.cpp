@@ -144,13 +144,36 @@ std::string sentenceOf(BakeScene const& bake, LightmapImage const& image, Lightm
                        whole.meanLux, whole.relativeError * 100, whole.hidden);
 }
 
-std::string pageOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
+Json storageToJson(Options const& options, StoredLightmap const& stored) {
+    return { { "format", kLightmapFormatNames[static_cast<size_t>(options.storage.format)] },
+             { "openness", options.storage.hasOpenness },
+             { "bytes", stored.bytes },
+             { "rmsLux", stored.error.rmsLux },
+             { "worstLux", stored.error.worstLux },
+             { "relativeError", stored.error.meanRelative },
+             { "opennessError", stored.error.opennessRms } };
+}
+
+std::string sentenceOf(Options const& options, StoredLightmap const& stored, ChartSummary const& whole) {
+    StorageError const& error = stored.error;
+    return fmt::format("Stored as {} in {} bytes. That adds an error of {:.3g} lux (RMS; {:.3g} % of the mean), the "
+                       "largest {:.3g} lux; a texel is off by {:.3g} % of its own light (RMS){}.",
+                       kLightmapFormatNames[static_cast<size_t>(options.storage.format)], stored.bytes, error.rmsLux,
+                       whole.meanLux > 0 ? error.rmsLux / whole.meanLux * 100 : 0, error.worstLux,
+                       error.meanRelative * 100,
+                       options.storage.hasOpenness ? fmt::format(", openness by {:.2g}", error.opennessRms)
+                                                   : std::string("; without openness"));
+}
+
+std::string pageOf(Options const& options, BakeScene const& bake, LightmapImage const& image,
+                   StoredLightmap const& stored, LightmapReport const& report) {
     std::vector<ChartSummary> const& charts = report.charts;
     std::string page = fmt::format("# Lightmap\n\n{}\n\n", sentenceOf(bake, image, report));
     for (uint32_t i = 0; i < image.pages; ++i)
         page += fmt::format("![lightmap]({}) ![standard error]({})\n\n", pictureName("lightmap", i),
                             pictureName("error", i));
-    page += tableOf(summarizePages(bake.atlas, bake.texels)) + sentenceOf(report.heldOut) + "\n\n";
+    page += tableOf(summarizePages(bake.atlas, bake.texels));
+    page += sentenceOf(options, stored, report.whole) + "\n\n" + sentenceOf(report.heldOut) + "\n\n";
     page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
             "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
     std::vector<uint32_t> order;
@@ -204,23 +227,26 @@ std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const Texel
     return pixels;
 }
 
-LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image) {
+LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image,
+                        StoredLightmap const& stored) {
     LightmapReport report{ .charts = summarize(bake.atlas, bake.texels, lights), .whole = {}, .heldOut = {} };
     report.whole = wholeOf(report.charts);
     std::vector<double> errors;
     for (ChartSummary const& chart : report.charts) errors.push_back(chart.errorLux());
     report.heldOut =
-            compareHeldOut(bake.heldOut, lights.subspan(bake.texels.size()), halvesOf(image), image.intensity, errors);
+            compareHeldOut(bake.heldOut, lights.subspan(bake.texels.size()), stored.read, image.intensity, errors);
     return report;
 }
 
-std::string summaryOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
-    return sentenceOf(bake, image, report) + "\n" + sentenceOf(report.heldOut);
+std::string summaryOf(Options const& options, BakeScene const& bake, LightmapImage const& image,
+                      StoredLightmap const& stored, LightmapReport const& report) {
+    return sentenceOf(bake, image, report) + "\n" + sentenceOf(options, stored, report.whole) + "\n" +
+           sentenceOf(report.heldOut);
 }
 
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
-                         LightmapImage const& image) {
-    const LightmapReport numbers = reportOf(bake, lights, image);
+                         LightmapImage const& image, StoredLightmap const& stored) {
+    const LightmapReport numbers = reportOf(bake, lights, image, stored);
     ChartSummary const& whole = numbers.whole;
     uint64_t rays = 0;
     for (TexelLight const& light : lights) rays += light.rays;
@@ -238,12 +264,13 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
                        { "samples", whole.samples },
                        { "meanLux", whole.meanLux },
                        { "relativeError", whole.relativeError },
+                       { "storage", storageToJson(options, stored) },
                        { "heldOut", heldOutToJson(numbers.heldOut) },
                        { "rays", rays },
                        { "warnings", bake.warnings },
                        { "charts", chartsToJson(bake, numbers.charts) } };
     if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
-    const std::string page = pageOf(bake, image, numbers);
+    const std::string page = pageOf(options, bake, image, stored, numbers);
     if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
     if (auto done = writePictures(options, "lightmap", image, previewOf(image)); !done) return done;
     return writePictures(options, "error", image, errorPicture(bake, lights, whole.meanLux));

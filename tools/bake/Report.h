@@ -30,14 +30,16 @@ struct LightmapReport {
     HeldOutReport heldOut;
 };
 /// `lights`: of the texels, then of the held-out points.
-LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image);
+LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image,
+                        StoredLightmap const& stored);
 /// A few lines.
-std::string summaryOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report);
+std::string summaryOf(Options const& options, BakeScene const& bake, LightmapImage const& image,
+                      StoredLightmap const& stored, LightmapReport const& report);
 /// RGBA8 of the texels' standard errors; white is a tenth of `meanLux`.
 std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux);
 
 /// `lights`: as of reportOf().
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
-                         LightmapImage const& image);
+                         LightmapImage const& image, StoredLightmap const& stored);
 
 } // namespace filament_core::bake

@@ -138,7 +138,13 @@ private:
             const std::string name = page == 0 ? std::string("lightmap") : fmt::format("lightmap {}", page);
             mRoot["images"].push_back(
                     { { "name", name }, { "bufferView", addView(mLight.pages[page]) }, { "mimeType", "image/ktx2" } });
-            const Json source{ { "source", mRoot["images"].size() - 1 } };
+            Json source{ { "source", mRoot["images"].size() - 1 } };
+            if (!mLight.openness.empty()) {
+                mRoot["images"].push_back({ { "name", name + " openness" },
+                                            { "bufferView", addView(mLight.openness[page]) },
+                                            { "mimeType", "image/ktx2" } });
+                source["openness"] = mRoot["images"].size() - 1;
+            }
             mRoot["textures"].push_back({ { "sampler", mRoot["samplers"].size() - 1 },
                                           { "extensions", { { kLightmapExtension, source } } } });
         }

@@ -3,7 +3,6 @@
 // as irradiance grids.
 // Exit status 0: baked and written. 130: stopped by Ctrl-C; the same command continues.
 #include "filament_core/assets/files/FileBytes.h"
-#include "filament_core/assets/image/Ktx2Encoder.h"
 #include "toolkit/program/Program.h"
 #include "tools/bake/BakeScene.h"
 #include "tools/bake/GridProgram.h"
@@ -96,17 +95,17 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
                   jobs::JobSystem& jobs) {
     const auto texels = lights.first(bake.texels.size());
     const LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
-    LightmapEntry entry{ {}, image.intensity, options.light.directLight };
-    const assets::Image halves = halvesOf(image);
-    for (uint32_t page = 0; page < image.pages; ++page)
-        entry.pages.push_back(assets::encodeKtx2(onePage(halves, page)));
+    StoredLightmap stored = storeLightmap(image, bake.texels, texels, options.storage, jobs);
+    const LightmapEntry entry{ std::move(stored.pages), std::move(stored.openness), image.intensity,
+                               options.light.directLight };
     const Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
     if (!file) return failed(file.error());
     const std::filesystem::path path = options.out / "baked.glb";
     if (auto done = assets::replaceFile(path, *file); !done) return failed(done.error());
-    if (auto done = writeReport(options, bake, lights, image); !done) return failed(done.error());
+    if (auto done = writeReport(options, bake, lights, image, stored); !done) return failed(done.error());
     if (!options.report.file.empty()) {
-        if (auto done = writeLightmapPage(options, bake, lights, image, path, jobs); !done) return failed(done.error());
+        if (auto done = writeLightmapPage(options, bake, lights, image, stored, path, jobs); !done)
+            return failed(done.error());
     }
     for (std::string const& warning : bake.warnings) tools::printWarning(warning);
     const bool isDark =

@@ -230,6 +230,14 @@ TEST_F(HeldOut, SoIsOneOnSeveralPages) {
     EXPECT_LT(holds.bound, 0.4);
 }
 
+// Stored in 1.5 bytes a texel, with an error that the bound knows, because it was found on what was stored.
+TEST_F(HeldOut, SoIsOneOfBlocks) {
+    Holds holds;
+    bake(interiors::cornellBox().model, 6, 64, holds, "--store bc6h");
+    EXPECT_GE(holds.within, 0.95);
+    EXPECT_LT(holds.bound, 0.4);
+}
+
 TEST_F(HeldOut, LightmapsOfRoomsAreToo) {
     for (const uint32_t seed : { 1u, 2u }) {
         Holds holds;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-bake from outside, and the file that it writes as the loader reads it.
+#include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "tests/tools/bake/BakeRun.h"
 #include "toolkit/interiors/Interiors.h"
@@ -10,6 +11,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <cstring>
+#include <map>
 #include <set>
 
 namespace filament_core::bake {
@@ -144,6 +147,46 @@ TEST_F(BakeProgram, GoesOnToFurtherPagesWhereOneIsFull) {
     uint64_t texels = 0;
     for (tools::Json const& page : (*report)["pages"]) texels += page["texels"].get<uint64_t>();
     EXPECT_EQ(texels, (*report)["texels"].get<uint64_t>());
+}
+
+// What the loader reads is what the report judged: halves of the same number, whatever the file holds.
+TEST_F(BakeProgram, StoresLightInFewerBytesAndStatesTheError) {
+    jobs::JobSystem jobs({ .workers = 1 });
+    std::map<std::string, double> bytes, errors;
+    for (const char* store : { "half", "rgb9e5", "bc6h", "bc6h --openness off" }) {
+        const Outcome outcome = run(std::string(kQuick) + "--levels 3 --out stored --store " + store);
+        ASSERT_EQ(outcome.status, 0) << outcome.text;
+        const Result<assets::ModelData> model = assets::loadGltf(mFolder / "stored/baked.glb", jobs);
+        ASSERT_TRUE(model) << model.error().message;
+        EXPECT_TRUE(model->warnings.empty()) << model->warnings.front();
+        assets::Image const& image =
+                model->images[model->materials[model->meshes[0].primitives[0].material].light.map.image];
+        ASSERT_EQ(image.format, backend::Format::RGBA16F);
+        EXPECT_EQ(image.levels, 3u);
+        float least = 1;
+        for (size_t i = 0; i < image.levelBytes(0); i += 8) {
+            uint16_t alpha;
+            std::memcpy(&alpha, &image.data[i + 6], sizeof(alpha));
+            least = std::min(least, floatFromHalf(alpha));
+        }
+        EXPECT_EQ(least < 1, std::string(store).find("off") == std::string::npos) << store;
+        const Result<tools::Json> report = tools::readJson(mFolder / "stored/report.json");
+        ASSERT_TRUE(report) << report.error().message;
+        tools::Json const& storage = (*report)["storage"];
+        bytes[store] = storage["bytes"].get<double>() / (double(image.width) * image.height * 21 / 16);
+        errors[store] = storage["relativeError"].get<double>();
+    }
+    EXPECT_NEAR(bytes["half"], 8, 0.4);
+    EXPECT_NEAR(bytes["rgb9e5"], 5, 0.4);
+    EXPECT_NEAR(bytes["bc6h"], 1.5, 0.4);
+    EXPECT_NEAR(bytes["bc6h --openness off"], 1, 0.4);
+    EXPECT_LT(errors["half"], 1.0 / 4096); // half a step of 2^-10
+    EXPECT_GT(errors["rgb9e5"], errors["half"]);
+    EXPECT_LT(errors["rgb9e5"], 1.0 / 512);
+    EXPECT_GT(errors["bc6h"], errors["rgb9e5"]);
+    EXPECT_LT(errors["bc6h"], 0.1);
+    EXPECT_EQ(errors["bc6h"], errors["bc6h --openness off"]);
+    EXPECT_THAT(run("cornell.glb --store rgbm").text, HasSubstr("half, rgb9e5 or bc6h"));
 }
 
 TEST_F(BakeProgram, SpendsABudgetOfTexelsAlikeOnAnyNumberOfThreads) {

@@ -211,13 +211,14 @@ std::vector<std::string> linesOf(std::string const& text) {
 } // namespace
 
 Result<void> writeLightmapPage(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
-                               LightmapImage const& image, std::filesystem::path const& model, jobs::JobSystem& jobs) {
-    const LightmapReport report = reportOf(bake, lights, image);
+                               LightmapImage const& image, StoredLightmap const& stored,
+                               std::filesystem::path const& model, jobs::JobSystem& jobs) {
+    const LightmapReport report = reportOf(bake, lights, image, stored);
     const Camera camera = reportCamera(options.report, options.light.exposure, *bake.scene, pointsOf(bake, lights));
     Result<PageSection> view = viewSection(options, camera, *bake.scene, { .model = model, .grid = {} }, jobs);
     if (!view) return view.error();
     const uint2 size(image.side, image.side * image.pages); // pages below each other
-    PageSection maps{ .title = "Lightmap", .sentences = linesOf(summaryOf(bake, image, report)) };
+    PageSection maps{ .title = "Lightmap", .sentences = linesOf(summaryOf(options, bake, image, stored, report)) };
     for (std::string const& warning : bake.warnings) maps.sentences.push_back("Warning: " + warning);
     maps.pictures = { { "Light: the mean is a middle grey", imageOf(size, previewOf(image)), true },
                       { "Standard error: white is a tenth of the mean",

@@ -14,7 +14,8 @@ namespace filament_core::bake {
 
 /// `model`: with the lightmap. `lights`: of the texels, then of the held-out points.
 Result<void> writeLightmapPage(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
-                               LightmapImage const& image, std::filesystem::path const& model, jobs::JobSystem& jobs);
+                               LightmapImage const& image, StoredLightmap const& stored,
+                               std::filesystem::path const& model, jobs::JobSystem& jobs);
 
 Result<void> writeGridPage(Options const& options, reference::TracedScene const& scene, BakedGrid const& baked,
                            jobs::JobSystem& jobs);

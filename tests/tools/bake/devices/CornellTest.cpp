@@ -90,5 +90,23 @@ TEST_F(CornellTest, ALightmapIsFourTimesNearerToThePathTracer) {
     EXPECT_LT(with * 4, without) << with << " with, " << without << " without";
 }
 
+// BC6H is decoded by the loader, or by the device on request: its bits are the same.
+TEST_F(CornellTest, BlocksOfLightHaveTheBitsOfTheirTexels) {
+    const std::string view =
+            " --environment sky.hdr --no-fit --eye 0 1 4 --at 0 1 0 --fov 38 --size 64x64 --skybox off ";
+    run("filament-bake",
+        "box.glb --environment sky.hdr --density 8 --samples 32 --held-out 0 --store bc6h --openness off --out bake");
+    run("filament-render", "bake/baked.glb" + view + "--format exr --out texels");
+    run("filament-render", "bake/baked.glb" + view + "--format exr --set model.compressedTextures=on --out blocks");
+    if (HasFatalFailure()) return;
+    const auto read = [&](char const* file) { return assets::readFileBytes(mFolder / file); };
+    for (char const* image : { "vulkan.exr", "gles.exr" }) {
+        const auto texels = read((std::string("texels/") + image).c_str());
+        const auto blocks = read((std::string("blocks/") + image).c_str());
+        ASSERT_TRUE(texels && blocks);
+        EXPECT_EQ(*texels, *blocks) << image;
+    }
+}
+
 } // namespace
 } // namespace filament_core::bake
