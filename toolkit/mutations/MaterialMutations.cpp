@@ -92,33 +92,35 @@ private:
     std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, per block created in this stream
 };
 
-/// Changes a channel of normal maps.
-class NormalMapEdit final : public PayloadEdit {
+/// Changes a channel of the maps of one kind.
+class MapEdit final : public PayloadEdit {
 public:
-    NormalMapEdit(size_t channel, std::byte (*change)(std::byte)) : mChannel(channel), mChange(change) {}
+    MapEdit(std::string_view map, size_t channel, std::byte (*change)(std::byte))
+            : mMap(map), mChannel(channel), mChange(change) {}
 
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
-        mNormalMaps.clear();
+        mMaps.clear();
         findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
-            shader::Parameter const* map = package.findParameter("normalMap");
+            shader::Parameter const* map = package.findParameter(mMap);
             for (BindGroupEntry const& entry : entries) {
-                if (map && entry.texture && entry.binding == map->binding) mNormalMaps.insert(entry.texture);
+                if (map && entry.texture && entry.binding == map->binding) mMaps.insert(entry.texture);
             }
         });
     }
 
     using PayloadEdit::edit;
     void edit(CmdUploadTexture& command) override {
-        if (!mNormalMaps.contains(command.texture)) return;
-        Bytes& texels = copy(command.bytes); // the loader converts every normal map to RGBA8
+        if (!mMaps.contains(command.texture)) return;
+        Bytes& texels = copy(command.bytes); // the loader converts all of them to RGBA8
         for (size_t i = mChannel; i < texels.size(); i += 4) texels[i] = mChange(texels[i]);
     }
 
 private:
+    const std::string_view mMap;
     const size_t mChannel;
     std::byte (*const mChange)(std::byte);
-    std::set<TextureHandle> mNormalMaps;
+    std::set<TextureHandle> mMaps;
 };
 
 /// Changes the texels of lightmaps.
@@ -180,10 +182,13 @@ private:
 
 /// The picture of a loader that assumes DirectX's convention.
 std::unique_ptr<StreamEdit> normalY() {
-    return std::make_unique<NormalMapEdit>(1, [](std::byte code) { return ~code; });
+    return std::make_unique<MapEdit>("normalMap", 1, [](std::byte code) { return ~code; });
+}
+std::unique_ptr<StreamEdit> bentNormalY() {
+    return std::make_unique<MapEdit>("occlusionMap", 2, [](std::byte code) { return ~code; });
 }
 std::unique_ptr<StreamEdit> normalVariance() {
-    return std::make_unique<NormalMapEdit>(3, [](std::byte) { return std::byte{ 0 }; });
+    return std::make_unique<MapEdit>("normalMap", 3, [](std::byte) { return std::byte{ 0 }; });
 }
 std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
 std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
@@ -200,6 +205,7 @@ std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_
 constexpr Mutation kMaterialMutations[] = {
     { "roughness", "roughness + 1 %", roughness },
     { "normalY", "normal maps with y flipped", normalY },
+    { "bentNormalY", "bent normals with y flipped", bentNormalY },
     { "normalVariance", "roughness without that of averaged normals", normalVariance },
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },

@@ -61,6 +61,8 @@ constexpr std::array kExtensions{
     GltfExtension{ "KHR_materials_volume", kRatified, "refraction and absorption by a body of some thickness" },
     GltfExtension{ "KHR_materials_volume_scatter", kDraft,
                    "light scattered inside such a body, in a colour, forwards or backwards" },
+    GltfExtension{ "FILAMENT_bent_normal", kVendor,
+                   "the mean open direction in the occlusion texture ([baking](baking.md))" },
     GltfExtension{ "FILAMENT_lightmap", kVendor,
                    "baked light of surfaces, a float texture in a KTX 2.0 file ([baking](baking.md))" },
     GltfExtension{ "KHR_xmp", kArchived, "metadata, without effect" },

@@ -166,6 +166,13 @@ void warnAboutLayers(Extensions const& extensions, const char* model) {
     }
 }
 
+void parseBentNormal(Extensions const& extensions, GltfMaterial& material) {
+    const JsonNode node = extensions.at("FILAMENT_bent_normal");
+    material.values.hasBentNormals = node.exists() && material.occlusion.texture != kNone;
+    if (node.exists() && !material.values.hasBentNormals)
+        node.diagnostics().warn("{}: needs an occlusionTexture and is left out without it", node.path());
+}
+
 void parseLightmap(Extensions const& extensions, GltfMaterial& material) {
     const JsonNode node = extensions.at("FILAMENT_lightmap");
     material.light = extensions.texture(node, "lightmapTexture");
@@ -178,6 +185,7 @@ void parseLightmap(Extensions const& extensions, GltfMaterial& material) {
 void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material) {
     const Extensions extensions{ node, textureCount };
     parseBump(extensions, material);
+    parseBentNormal(extensions, material);
     const JsonNode glossiness = extensions.at("KHR_materials_pbrSpecularGlossiness");
     if (extensions.at("KHR_materials_unlit").exists()) {
         material.values.unlit = true;

@@ -193,6 +193,7 @@ struct MaterialData {
     float3 emissiveFactor{ 0.0f };
     float emissiveStrength = 1; ///< KHR_materials_emissive_strength: multiplies emissiveFactor
     TextureRef baseColor, metallicRoughness, normal, occlusion, emissive;
+    bool hasBentNormals = false; ///< FILAMENT_bent_normal: in green and blue of the occlusion map (docs/baking.md)
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;

@@ -64,10 +64,12 @@ public:
     void feature(const char* has) { constant(has, true); }
     void parameter(const char* name, ParameterValue const& value) { mParameters.push_back({ name, value }); }
 
-    void map(const char* stem, const char* has, TextureRef const& texture) {
-        if (texture.image == kNone || !hasRoomFor(stem)) return;
+    /// False: there is none, or no room for it.
+    bool map(const char* stem, const char* has, TextureRef const& texture) {
+        if (texture.image == kNone || !hasRoomFor(stem)) return false;
         feature(has);
         addMap(stem, texture);
+        return true;
     }
 
     /// Of vectors: the shader turns them into the frame of the vertices.
@@ -144,10 +146,11 @@ void setCommonMaps(Settings& settings, MaterialData const& material, GltfVertice
         settings.parameter("bumpFactor", material.bump.factor);
         settings.map("bump", "hasBumpMap", material.bump.map);
     }
-    if (!material.specularGlossiness && sharesTexel(material.occlusion, material.metallicRoughness))
+    if (!material.specularGlossiness && !material.hasBentNormals &&
+        sharesTexel(material.occlusion, material.metallicRoughness))
         settings.feature("occlusionInMetallicRoughness");
-    else
-        settings.map("occlusion", "hasOcclusionMap", material.occlusion);
+    else if (settings.map("occlusion", "hasOcclusionMap", material.occlusion) && material.hasBentNormals)
+        settings.feature("hasBentNormals");
     setEmission(settings, material);
 }
 

@@ -22,4 +22,5 @@ void gltfBump() {
     if (materialConstants_hasBumpMap)
         tiltTo(bumpedNormal(shading_normal, materialConstants_hasNormalMap, gltfRise()));
 #endif
+    gltfUnbent();
 }

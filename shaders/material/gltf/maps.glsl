@@ -17,19 +17,27 @@ vec4 gltfNormal() {
 
 // Sets the normal. Returns w of gltfNormal().
 float gltfSurfaceNormal(inout MaterialInputs material) {
-    if (!materialConstants_hasNormalMap) return 0.0;
-    vec4 normal = gltfNormal();
-    material.normal = normal.xyz;
-    return normal.w;
+    float width = 0.0;
+    if (materialConstants_hasNormalMap) {
+        vec4 normal = gltfNormal();
+        material.normal = normal.xyz;
+        width = normal.w;
+    }
+    if (materialConstants_hasBentNormals) material.bentNormal = material.normal; // bent by gltfBend()
+    return width;
 }
 
 float widenedRoughness(float roughness, float width) {
     return materialConstants_normalWidth ? widenedPerceptualRoughness(roughness, width) : roughness;
 }
 
+#include "shaders/material/gltf/bent_normal.glsl"
+
 float gltfOcclusion() {
     vec2 uv = mapUv(materialConstants_occlusionUv, materialConstants_occlusionTransform, materialParams.occlusionUvMatrix);
-    return texture(materialParams_occlusionMap, uv).r;
+    vec4 texel = texture(materialParams_occlusionMap, uv);
+    if (materialConstants_hasBentNormals) gltfBend(texel.gb, uv);
+    return texel.r;
 }
 
 float occlusionOf(float texel) { return 1.0 + materialParams.occlusionStrength * (texel - 1.0); }
