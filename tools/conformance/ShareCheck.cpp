@@ -16,7 +16,7 @@ namespace filament_core::conformance {
 namespace {
 
 /// Drawn as renderShares() does not: in one go.
-Result<Image> pictureOf(Engine& engine, Scene const& scene, View const& view, uint32_t frames) {
+Result<Image> drawnAtOnce(Engine& engine, Scene const& scene, View const& view, uint32_t frames) {
     const Owned<SwapChain> target = engine.own(engine.create(
             SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "shares" }));
     Renderer renderer(engine);
@@ -89,7 +89,7 @@ Result<ShareVerdict> checkShares(Engine& engine, Scene const& scene, View const&
     View whole = view;
     whole.viewport.reset();
     whole.effects.resolution.dynamic = false;
-    const Result<Image> picture = pictureOf(engine, scene, whole, frames);
+    const Result<Image> picture = drawnAtOnce(engine, scene, whole, frames);
     if (!picture) return picture.error();
     const Result<Shares> shares = renderShares(engine, scene, whole, { .terms = ShareTerms::All, .frames = frames });
     if (!shares) return shares.error();

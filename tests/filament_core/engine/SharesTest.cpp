@@ -14,7 +14,7 @@ namespace filament_core {
 namespace {
 
 constexpr uint2 kShareSize{ 24, 16 };
-constexpr const char* kChalk = R"(material { name : chalk, requires : [ tangents ] }
+constexpr const char* kShareChalk = R"(material { name : chalk, requires : [ tangents ] }
 fragment { void material(inout MaterialInputs material) {
     prepareMaterial(material);
     material.baseColor = vec4(0.5, 0.25, 1.0, 1.0);
@@ -22,7 +22,8 @@ fragment { void material(inout MaterialInputs material) {
     material.emissive = vec4(0.01, 0.02, 0.0, 0.0);
 } })";
 
-/// A white square with a smaller one before it, a sun with shadows, two lamps, a sun in the sky, and an environment.
+/// A square with a smaller one before it, a sun that is in the sky, too, a lamp, another that shines on the smaller
+/// square alone, and an environment.
 struct ShareStage {
     Engine engine;
     test::SquareMesh square{ engine };
@@ -36,20 +37,23 @@ struct ShareStage {
 
     explicit ShareStage(Backend backend)
             : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
-              material(test::loadMaterial(engine, kChalk)),
+              material(test::loadMaterial(engine, kShareChalk)),
               instance(engine.own(engine.createInstance(material, "wall"))) {
         const Node near = scene.add(NodeDesc{ .name = "near" });
         square.add(scene, instance);
-        scene.add({ .vertices = square.vertices(),
-                    .indices = square.indices(),
-                    .material = instance,
-                    .node = scene.add(
-                            NodeDesc{ .parent = near, .parentFromNode = placed(double3(0.2, 0.1, 0.3), 0.2) }) });
+        scene.add(
+                { .vertices = square.vertices(),
+                  .indices = square.indices(),
+                  .material = instance,
+                  .node = scene.add(NodeDesc{ .parent = near, .parentFromNode = placed(double3(0.2, 0.1, 0.3), 0.2) }),
+                  .lightChannels = 3 });
         lampNode = scene.add(NodeDesc{ .name = "lamp" });
-        lights = { scene.add(SunLight{
-                           .directionWorld = { 0.5f, -0.3f, -1 }, .illuminance = Lux{ 3e4f }, .showsDisc = true }),
-                   scene.add(PointLight{ .positionWorld = { -0.5, 0, 0.5 }, .intensity = Candela{ 2e4f } }, lampNode),
-                   scene.add(PointLight{ .positionWorld = { 0.5, 0.2, 0.7 }, .intensity = Candela{ 1e4f } }) };
+        lights = {
+            scene.add(SunLight{ .directionWorld = { 0.5f, -0.3f, -1 }, .illuminance = Lux{ 3e4f }, .showsDisc = true }),
+            scene.add(PointLight{ .positionWorld = { -0.5, 0, 0.5 }, .intensity = Candela{ 2e4f } }, lampNode),
+            scene.add(
+                    PointLight{ .positionWorld = { 0.5, 0.2, 0.7 }, .intensity = Candela{ 1e4f }, .lightChannels = 2 })
+        };
         white.light(scene, view.camera);
         view.camera.worldFromView = view.camera.worldFromView * placed(double3(0.4, 0, 0), 1); // the sky is in view
     }
@@ -177,7 +181,6 @@ TEST(Shares, OfEffectsAddUpToThePicturesBits) {
 TEST(Shares, OfDarkLightsAreNothing) {
     ShareStage stage(Backend::Vulkan);
     stage.view.effects.fog = { .enabled = true, .density = 0.2f, .volumetric = true };
-    stage.scene.setLightChannels(stage.lights[1], 2);
     const Shares shares = stage.shares();
     ASSERT_EQ(namesOf(shares), kLightNames);
     EXPECT_EQ(wrongSums(shares, stage.picture()), 0u);
@@ -205,7 +208,7 @@ TEST(Shares, LeaveTheFramesOfOtherRenderersAsTheyAre) {
     });
 }
 
-std::string bytesOf(std::filesystem::path const& file) {
+std::string textOfFile(std::filesystem::path const& file) {
     std::ifstream in(file, std::ios::binary);
     return { std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
 }
@@ -223,11 +226,11 @@ TEST(Shares, AreLayersOfAnExrFile) {
                    .terms = { { .name = "emission" }, { .kind = ShareKind::Lights, .name = "light0 a.b" } },
                    .sums = { oneHalfPixel(0x7BFF), oneHalfPixel(0x3C00) } };
     ASSERT_TRUE(saveExr(file, shares));
-    EXPECT_NE(bytesOf(file).find("light0_a_b.R"), std::string::npos);
-    EXPECT_EQ(bytesOf(file).find("rounding.R"), std::string::npos);
+    EXPECT_NE(textOfFile(file).find("light0_a_b.R"), std::string::npos);
+    EXPECT_EQ(textOfFile(file).find("rounding.R"), std::string::npos);
     shares.sums[1] = oneHalfPixel(0x0001);
     ASSERT_TRUE(saveExr(file, shares));
-    EXPECT_NE(bytesOf(file).find("rounding.R"), std::string::npos);
+    EXPECT_NE(textOfFile(file).find("rounding.R"), std::string::npos);
     EXPECT_EQ(shares.share(0, {}).x + shares.share(1, {}).x, std::ldexp(1.0, -24));
 }
 
