@@ -103,6 +103,10 @@ struct LightImageState {
 struct RenderTargetState {
     Texture color, depth; ///< depth: optional. The app may have destroyed them: HandleTable::held()
     bool generateMips = false;
+    uint8_t level = 0;
+    uint16_t layer = 0;
+    std::vector<Texture> others;
+    bool hasContents = false; ///< the level and layer
     std::string name;
 };
 

@@ -17,25 +17,25 @@ Error noImage(uint32_t width, uint32_t height) {
                 "the device has no image of {} x {} texels; Engine::takeErrors() names the cause", width, height);
 }
 
-PixelTicket PixelReads::ask(TextureState const& texture) {
+PixelTicket PixelReads::ask(TextureState const& texture, uint8_t level, uint16_t layer) {
     return mEngine.orNone("reading pixels", texture.name, [&]() -> PixelTicket {
         const Ticket ticket = mEngine.stream->nextTicket();
-        const Rect all{ 0, 0, texture.desc.width, texture.desc.height };
+        const Rect all{ 0, 0, std::max(1u, texture.desc.width >> level), std::max(1u, texture.desc.height >> level) };
         mPending[ticket.value] = { .width = all.width, .height = all.height, .format = texture.desc.format };
         if (!texture.handle) return { ticket.value }; // never answered, see isRefused()
-        record(ticket, texture.handle, all);
+        record({ texture.handle, level, layer, all, ticket });
         return { ticket.value };
     });
 }
 
 /// If this throws, no trace of the request is left.
-void PixelReads::record(Ticket ticket, TextureHandle texture, Rect const& all) {
+void PixelReads::record(CmdReadTexture const& read) {
     try {
         FrameCommands commands(*mEngine.stream);
         mEngine.drainPending(*commands);
-        commands->record(CmdReadTexture{ texture, 0, 0, all, ticket });
+        commands->record(read);
     } catch (std::bad_alloc const&) {
-        mPending.erase(ticket.value);
+        mPending.erase(read.ticket.value);
         throw;
     }
 }

@@ -20,14 +20,14 @@ class PixelReads {
 public:
     explicit PixelReads(Engine::Impl& engine) : mEngine(engine) {}
 
-    PixelTicket ask(TextureState const& texture);
+    PixelTicket ask(TextureState const& texture, uint8_t level = 0, uint16_t layer = 0);
     std::optional<Image> take(PixelTicket ticket);
     Result<Image> wait(PixelTicket ticket);
 
 private:
     using Pending = std::map<uint64_t, Image>;
 
-    void record(backend::Ticket ticket, backend::TextureHandle texture, backend::Rect const& all);
+    void record(backend::CmdReadTexture const& read);
     Pending::iterator find(PixelTicket ticket);
     bool isRefused(Image const& image) const;
 

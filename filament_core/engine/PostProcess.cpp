@@ -2,11 +2,13 @@
 #include "filament_core/engine/PostProcess.h"
 
 #include "base/Suggest.h"
+#include "filament_core/engine/materials/CheckSpirv.h"
 #include "filament_core/engine/materials/TextureParameters.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <optional>
 
@@ -57,7 +59,7 @@ Result<void> checkFrameInput(std::string_view material, Parameter const& paramet
 }
 
 Result<void> checkOwnTexture(Engine::Impl& engine, scene::MaterialInstance const& instance, Parameter const& parameter,
-                             std::span<const backend::TextureHandle> drawn) {
+                             PassTargets const& to) {
     const std::string_view material = passName(instance);
     if (parameter.type == ParameterType::Sampler2DMS || parameter.type == ParameterType::SubpassInput ||
         parameter.currentPixel)
@@ -66,22 +68,41 @@ Result<void> checkOwnTexture(Engine::Impl& engine, scene::MaterialInstance const
                                                  parameter.name,
                                                  parameter.currentPixel ? "currentPixel" : toString(parameter.type)));
     const backend::TextureHandle texture = givenTexture(engine, instance, parameter);
+    if (!texture && to.isAlone)
+        return refusedPass(material,
+                           fmt::format("has no texture for '{}'; give it one by Engine::set(): a pass without "
+                                       "a view has no inputs of its frame",
+                                       parameter.name));
     if (!texture)
         return refusedPass(material,
                            fmt::format("has no texture for '{}'; give it one by Engine::set(), or name an input "
                                        "of the frame: color, depth, normals or history{}",
                                        parameter.name, suggestion(parameter.name, kAppInputs)));
-    if (std::ranges::find(drawn, texture) == drawn.end()) return {};
+    if (std::ranges::find(to.drawn, texture) == to.drawn.end()) return {};
     return refusedPass(material, fmt::format("samples by '{}' what the frame draws to; draw to another render target",
                                              parameter.name));
 }
 
-Result<void> checkPassMaterial(scene::MaterialInstance const& instance) {
+/// Packages without code for Vulkan are taken as they are.
+Result<void> checkOutputs(scene::MaterialInstance const& instance, PassTargets const& to) {
+    shader::Variant const* variant = instance.material->package.findVariant(0);
+    if (!variant || variant->fragment->spirv.empty()) return {};
+    const FragmentOutputs outputs = fragmentOutputs(variant->fragment->spirv);
+    if (outputs.colors == (1u << to.colors) - 1 && !outputs.depth) return {};
+    const char* const cure = to.isAlone ? "give `outputs` of the material and colours of the render target "
+                                          "(RenderTargetDesc::others) the same number, from location 0 on"
+                                        : "leave `outputs` out, or draw it without a view, into a render target";
+    return refusedPass(passName(instance),
+                       fmt::format("writes {} colours{}, and is drawn to {}; {}", std::popcount(outputs.colors),
+                                   outputs.depth ? " and depth" : "", to.colors, cure));
+}
+
+Result<void> checkPassMaterial(scene::MaterialInstance const& instance, PassTargets const& to) {
     shader::MaterialPackage const& package = instance.material->package;
     if (package.domain != MaterialDomain::PostProcess)
         return refusedPass(passName(instance), "is of domain surface; say domain : postprocess in it, or give it to a "
                                                "renderable");
-    if (package.blending == Blending::Opaque) return {};
+    if (package.blending == Blending::Opaque || to.isAlone) return checkOutputs(instance, to);
     return refusedPass(passName(instance), "blends; leave blending out, read the picture as color and mix in the code");
 }
 
@@ -135,22 +156,33 @@ std::span<const PostProcessPass> postProcessOf(View const& view) {
                                                                       : std::span<const PostProcessPass>{};
 }
 
-Result<void> checkPostProcess(Engine::Impl& engine, View const& view, std::span<const backend::TextureHandle> drawn) {
+Result<void> checkPostProcess(Engine::Impl& engine, View const& view, PassTargets const& to) {
     for (PostProcessPass const& pass : postProcessOf(view)) {
         if (!pass.material)
             return fail(ErrorCode::InvalidArgument, "a frame is left out: a pass of View::postProcess has no material; "
                                                     "Engine::createInstance() makes one");
         scene::MaterialInstance const& instance = engine.instances.get(pass.material);
-        if (Result<void> fits = checkPassMaterial(instance); !fits) return fits;
+        if (Result<void> fits = checkPassMaterial(instance, to); !fits) return fits;
         for (Parameter const& parameter : instance.material->package.parameters) {
             if (!isSampled(parameter)) continue;
-            const std::optional<AppInput> input = frameInput(engine, instance, parameter);
+            const std::optional<AppInput> input = to.isAlone ? std::nullopt : frameInput(engine, instance, parameter);
             Result<void> fits = input ? checkFrameInput(passName(instance), parameter, *input)
-                                      : checkOwnTexture(engine, instance, parameter, drawn);
+                                      : checkOwnTexture(engine, instance, parameter, to);
             if (!fits) return fits;
         }
     }
     return {};
+}
+
+View viewOfPass(PostProcessPass const& pass, View const& view, uint2 size) {
+    View seen{ .camera = view.camera,
+               .size = size,
+               .timeSeconds = view.timeSeconds,
+               .materialGlobals = view.materialGlobals,
+               .postProcess = std::span(&pass, 1) };
+    seen.quality.textureFilter = view.quality.textureFilter;
+    seen.quality.shadows = ShadowFilter::Off;
+    return seen;
 }
 
 void usePostProcess(Engine::Impl& engine, Arena& arena, View const& view, passes::FrameContext& context) {

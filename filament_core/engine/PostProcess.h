@@ -16,8 +16,17 @@ namespace filament_core::engine {
 /// None in views that show something else than their image.
 std::span<const PostProcessPass> postProcessOf(View const& view);
 
-/// `drawn`: the textures that the frame draws to.
-Result<void> checkPostProcess(Engine::Impl& engine, View const& view, std::span<const backend::TextureHandle> drawn);
+/// What passes draw to.
+struct PassTargets {
+    std::span<const backend::TextureHandle> drawn; ///< all textures that the frame draws to
+    bool isAlone = false;                          ///< without a view, whose picture they could read
+    size_t colors = 1;                             ///< attachments
+};
+
+Result<void> checkPostProcess(Engine::Impl& engine, View const& view, PassTargets const& to);
+
+/// Of a pass without a view: what it sees of one. Refers to `pass`.
+View viewOfPass(PostProcessPass const& pass, View const& view, uint2 size);
 
 /// Gives checked passes to a frame.
 void usePostProcess(Engine::Impl& engine, Arena& arena, View const& view, passes::FrameContext& context);

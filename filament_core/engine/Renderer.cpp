@@ -6,6 +6,7 @@
 #include "filament_core/engine/FogHistory.h"
 #include "filament_core/engine/FrameResourceCache.h"
 #include "filament_core/engine/FrameSummary.h"
+#include "filament_core/engine/FrameTarget.h"
 #include "filament_core/engine/FrameTimingLog.h"
 #include "filament_core/engine/ImageTarget.h"
 #include "filament_core/engine/Picker.h"
@@ -42,6 +43,7 @@ namespace {
 
 using namespace backend;
 using engine::PublicCall;
+using Target = engine::FrameTarget;
 using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
@@ -51,48 +53,6 @@ prepare::ViewInput wholeInputOf(View const& view, Effects effects, uint64_t cont
     effects.resolution.scale = float2(1);
     effects.guardBand.enabled = false;
     return prepare::viewInput(view, effects, contents);
-}
-
-/// The target of a frame. `depth`: null: unused.
-struct Target {
-    engine::TextureState& color;
-    engine::TextureState* depth = nullptr;
-    bool generatesMips = false;
-    bool isSampled = false; ///< perhaps by materials
-
-    bool isSrgb() const { return backend::formatInfo(color.desc.format).isSrgb; }
-};
-
-std::array<TextureHandle, 2> texturesOf(Target const& target) {
-    return { target.color.handle, target.depth ? target.depth->handle : TextureHandle{} };
-}
-
-FrameOutput outputOf(Target const& target) {
-    engine::TextureState const& color = target.color;
-    FrameOutput output{ .texture = color.handle,
-                        .width = color.desc.width,
-                        .height = color.desc.height,
-                        .format = attachmentFormat(color.desc.format),
-                        .hasContents = color.hasContents };
-    if (target.generatesMips && target.isSrgb()) output.srgbLevels = static_cast<uint8_t>(color.desc.levels);
-    if (target.depth) output.depth = target.depth->handle, output.hasDepths = target.depth->hasContents;
-    return output;
-}
-
-/// The material that samples the frame's own target; null: none does.
-scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, Target const& target) {
-    const auto samples = [&](prepare::DrawCall const& draw) {
-        return std::ranges::any_of(draw.material->textures, [&](scene::TextureBinding const& bound) {
-            return bound.texture == target.color.handle || (target.depth && bound.texture == target.depth->handle);
-        });
-    };
-    for (prepare::ViewPacket const& view : packet.views) {
-        for (const std::span<const prepare::DrawCall> draws : { view.opaque, view.blended }) {
-            const auto found = std::ranges::find_if(draws, samples);
-            if (found != draws.end()) return found->material;
-        }
-    }
-    return nullptr;
 }
 
 bool isDirtOf(FrameContext const& context, Target const& target) {
@@ -208,8 +168,9 @@ struct Renderer::Impl final : engine::Dependent {
     }
 
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
-    FrameContext& planFrame(Scene const& scene, View const& view, Effects const& effects, FrameOutput const& output,
+    FrameContext& planFrame(Scene const& scene, View const& view, Effects const& effects, Target const& target,
                             PipelineSource pipelines, framegraph::TransientPool& pool) {
+        const FrameOutput output = outputOf(target);
         arena.reset();
         graph.reset();
         plan = {};
@@ -226,7 +187,10 @@ struct Renderer::Impl final : engine::Dependent {
         useKept(context, pipelines);
         blocks.begin();
         context.blocks = &blocks;
-        passes::describeFrame(graph, context, output);
+        if (target.isAlone)
+            passes::describeAppPass(graph, context, output, otherOutputsOf(engine, target));
+        else
+            passes::describeFrame(graph, context, output);
         plan = compile(graph, pool);
         return context;
     }
@@ -261,6 +225,11 @@ struct Renderer::Impl final : engine::Dependent {
                 output.depth || context.debugDraw.quads.tested > 0 || passes::readsDepth(context.appPasses);
     }
 
+    Result<void> checkPasses(View const& view, Target const& target) {
+        const auto drawn = texturesOf(engine, target);
+        return engine::checkPostProcess(engine, view, { drawn, target.isAlone, target.colors() });
+    }
+
     /// Out of memory: the next frame starts without history.
     void keepLast(Scene const& scene, prepare::ViewInput const& input, prepare::FramePacket const& packet) {
         try {
@@ -293,7 +262,7 @@ struct Renderer::Impl final : engine::Dependent {
         shadows.forget(context.packet.shadows);
         probes.copy(context.packet.probes, *commands);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
-        if (target.generatesMips && !target.isSrgb()) commands->record(CmdGenerateMips{ target.color.handle });
+        if (target.generatesMips() && !target.isSrgb()) commands->record(CmdGenerateMips{ target.color.handle });
         shadows.keep(context.packet.shadows);
         probes.keep(context.packet.probes);
         fogHistory.keep(passes::fogLightBytes(context));
@@ -302,7 +271,7 @@ struct Renderer::Impl final : engine::Dependent {
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
     Result<void> drawFrame(Scene const& scene, View const& view, Target const& target) {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
-        Result<void> usable = engine::checkPostProcess(engine, view, texturesOf(target));
+        Result<void> usable = checkPasses(view, target);
         if (!usable) return leaveOut(usable.error());
         timers.clear();
         stamps = { .begin = clock() };
@@ -312,12 +281,11 @@ struct Renderer::Impl final : engine::Dependent {
         beginAnewWithAnother(scene, input());
         chooseShare(effects.resolution);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
-        FrameContext& context =
-                planFrame(scene, view, effects, outputOf(target), PipelineSource(engine.pipelines), transients);
-        scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
+        FrameContext& context = planFrame(scene, view, effects, target, PipelineSource(engine.pipelines), transients);
+        scene::MaterialInstance const* material = target.state ? samplerOf(context.packet, target) : nullptr;
         // After the plan, which knows what is drawn, and before anything is recorded: the frame can still be left out.
         if (material) return samplesTarget(*material, target);
-        if (target.isSampled && isDirtOf(context, target)) return dirtIsTarget(target);
+        if (target.state && isDirtOf(context, target)) return dirtIsTarget(target);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
@@ -357,7 +325,7 @@ struct Renderer::Impl final : engine::Dependent {
     /// serves the next frame.
     Result<void> render(Scene const& scene, View const& view, Target const& target) {
         backend::DeviceTextureDesc const& desc = target.color.desc;
-        checkNumbers(view, desc.format);
+        if (!target.isAlone) checkNumbers(view, desc.format);
         if (!target.color.handle) return engine::noImage(desc.width, desc.height);
         try {
             // Outside of the frame: callbacks of finished compilations may compile and destroy materials.
@@ -366,20 +334,11 @@ struct Renderer::Impl final : engine::Dependent {
             Result<void> drawn = drawFrame(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target);
             if (!drawn) return drawn;
             // Only once the frame is recorded: what failed has drawn nothing.
-            target.color.hasContents = true;
-            if (target.depth) target.depth->hasContents = true;
+            target.keepContents(engine);
             return {};
         } catch (std::bad_alloc const&) {
             return leaveOut(outOfMemory("a frame is left out"));
         }
-    }
-
-    Target targetOf(RenderTarget target) {
-        engine::RenderTargetState const& state = engine.renderTargets.get(target);
-        return { .color = engine.textures.held(state.color),
-                 .depth = state.depth ? &engine.textures.held(state.depth) : nullptr,
-                 .generatesMips = state.generateMips,
-                 .isSampled = true };
     }
 
     /// The next image becomes the current one once it has been drawn. A view that keeps its contents joins the current
@@ -392,6 +351,16 @@ struct Renderer::Impl final : engine::Dependent {
         return drawn;
     }
 
+    /// By a renderer of their own: what this one keeps of its frames stays.
+    void renderAlone(MaterialInstance pass, View const& view, Target target) {
+        engine.orReport("a pass", target.color.name, [&] {
+            if (!alone) alone = std::make_unique<Alone>(*engine.self);
+            target.isAlone = true;
+            const PostProcessPass only{ pass, PassPlace::Last };
+            (void)alone->renderer.mImpl->render(alone->nothing, engine::viewOfPass(only, view, target.size()), target);
+        });
+    }
+
     // ------------------------------------------------------------------------------------------ expected frames
 
     /// The passes of such a frame become slots of the pipeline cache; their own pipelines are requested.
@@ -399,7 +368,7 @@ struct Renderer::Impl final : engine::Dependent {
         checkNumbers(view, target.color.desc.format);
         try {
             const jobs::AdoptedThread seat(engine.jobs);
-            Result<void> usable = engine::checkPostProcess(engine, view, texturesOf(target));
+            Result<void> usable = checkPasses(view, target);
             if (!usable) return engine.report(usable.error().message);
             std::vector<passes::FullScreenRequest> requests;
             rehearse(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target, requests);
@@ -424,7 +393,7 @@ struct Renderer::Impl final : engine::Dependent {
             CommandBuffer& commands;
             ~ExpectedTextures() { pool.destroyAll(commands); }
         } expected{ framegraph::TransientPool(*engine.stream), engine.pending };
-        planFrame(scene, view, clamped(view.effects), outputOf(target), PipelineSource(engine.pipelines, &requests),
+        planFrame(scene, view, clamped(view.effects), target, PipelineSource(engine.pipelines, &requests),
                   expected.pool);
         framegraph::rehearse(plan);
     }
@@ -444,6 +413,12 @@ struct Renderer::Impl final : engine::Dependent {
     }
 
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
+
+    struct Alone {
+        explicit Alone(Engine& of) : renderer(of), nothing(of) {}
+        Renderer renderer;
+        Scene nothing;
+    };
 
     Engine::Impl& engine; ///< while the link is alive
     engine::EngineLink link;
@@ -467,6 +442,7 @@ struct Renderer::Impl final : engine::Dependent {
     engine::PixelReads pixels;
     engine::ImageTarget imageTarget;
     std::optional<engine::Picker> picker; ///< after the first pick
+    std::unique_ptr<Alone> alone;         ///< after the first pass without a view
     uint64_t frame = 0;
     prepare::LastFrame last; ///< that was drawn
     ResolutionController shares;
@@ -491,9 +467,14 @@ void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain)
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
     const PublicCall call(mImpl, "Renderer::render(Scene, View, RenderTarget)");
     mImpl->check(scene);
-    const Target drawn = mImpl->targetOf(target);
-    checkPlace(view, { drawn.color.desc.width, drawn.color.desc.height });
+    const Target drawn = engine::targetOf(mImpl->engine, target);
+    checkPlace(view, drawn.size());
     (void)mImpl->render(scene, view, drawn);
+}
+
+void Renderer::render(MaterialInstance pass, RenderTarget target, View const& view) {
+    const PublicCall call(mImpl, "Renderer::render(MaterialInstance, RenderTarget, View)");
+    mImpl->renderAlone(pass, view, engine::targetOf(mImpl->engine, target));
 }
 
 void Renderer::present(SwapChain swapChain) {
@@ -518,7 +499,7 @@ void Renderer::prewarm(Scene const& scene, View const& view, SwapChain swapChain
 void Renderer::prewarm(Scene const& scene, View const& view, RenderTarget target) {
     const PublicCall call(mImpl, "Renderer::prewarm(Scene, View, RenderTarget)");
     mImpl->check(scene);
-    mImpl->prewarm(scene, view, mImpl->targetOf(target));
+    mImpl->prewarm(scene, view, engine::targetOf(mImpl->engine, target));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
@@ -529,7 +510,8 @@ PixelTicket Renderer::readPixels(SwapChain swapChain) {
 
 PixelTicket Renderer::readPixels(RenderTarget target) {
     const PublicCall call(mImpl, "Renderer::readPixels(RenderTarget)");
-    return mImpl->pixels.ask(mImpl->engine.textures.held(mImpl->engine.renderTargets.get(target).color));
+    const Target read = engine::targetOf(mImpl->engine, target);
+    return mImpl->pixels.ask(read.color, read.level(), read.layer());
 }
 
 std::optional<Image> Renderer::takePixels(PixelTicket ticket) {

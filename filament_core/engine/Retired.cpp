@@ -52,6 +52,7 @@ void addUsesOfTextures(Engine::Impl& engine, Uses& uses) {
     engine.renderTargets.forEach([&](RenderTargetState const& state) {
         uses.add(engine.textures.held(state.color).handle);
         if (state.depth) uses.add(engine.textures.held(state.depth).handle);
+        for (const Texture other : state.others) uses.add(engine.textures.held(other).handle);
     });
 }
 

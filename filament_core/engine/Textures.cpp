@@ -245,8 +245,14 @@ Skybox Engine::create(SkyboxDesc const& desc) {
 
 namespace {
 
-bool isPicture(DeviceTextureDesc const& desc) {
-    return desc.type == TextureKind::Texture2D && has(desc.usage, TextureUsage::ColorAttachment);
+uint2 sizeOfLevel(DeviceTextureDesc const& desc, uint32_t level) {
+    return { std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
+}
+
+bool isRenderable(DeviceTextureDesc const& desc) { return has(desc.usage, TextureUsage::ColorAttachment); }
+
+bool isPicture(DeviceTextureDesc const& desc, uint2 size) {
+    return desc.type == TextureKind::Texture2D && isRenderable(desc) && uint2(desc.width, desc.height) == size;
 }
 
 void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const& textures,
@@ -255,16 +261,25 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
     DeviceTextureDesc const& color = textures.get(desc.color).desc;
     const bool isShown = attachmentFormat(color.format) == Format::RGBA8 || color.format == Format::RGB10A2;
     const bool isFloat = color.format == Format::RGBA16F || color.format == Format::RGBA32F;
-    FILAMENT_ASSERT(isPicture(color) && (isShown || isFloat),
-                    "the colour of a render target is a renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or "
+    FILAMENT_ASSERT(isRenderable(color) && (isShown || isFloat),
+                    "the colour of a render target is a renderable texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or "
                     "RGBA32F");
+    FILAMENT_ASSERT(desc.level < color.levels && desc.layer < color.layers,
+                    "the level and the layer of a render target are those of its colour");
+    FILAMENT_ASSERT(!desc.generateMips || (desc.level == 0 &&
+                                           (!formatInfo(color.format).isSrgb || color.type == TextureKind::Texture2D)),
+                    "a render target that generates mips draws to level 0, and to a 2D texture if it is RGBA8Srgb");
     FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
                     "the colour of a render target that generates mips has several levels");
+    const uint2 size = sizeOfLevel(color, desc.level);
+    FILAMENT_ASSERT(desc.others.size() <= 3, "a render target has at most three other colours");
+    for (const Texture other : desc.others)
+        FILAMENT_ASSERT(isPicture(textures.get(other).desc, size),
+                        "other colours of a render target are renderable 2D textures, as large as what is drawn");
     if (!desc.depth) return;
     DeviceTextureDesc const& depth = textures.get(desc.depth).desc;
-    FILAMENT_ASSERT(isPicture(depth) && depth.format == Format::R32F && depth.width == color.width &&
-                            depth.height == color.height,
-                    "the depth of a render target is a renderable 2D texture of R32F, as large as its colour");
+    FILAMENT_ASSERT(isPicture(depth, size) && depth.format == Format::R32F,
+                    "the depth of a render target is a renderable 2D texture of R32F, as large as what is drawn");
 }
 
 } // namespace
@@ -274,7 +289,14 @@ RenderTarget Engine::create(RenderTargetDesc const& desc) {
     checkTarget(mImpl->textures, desc);
     return mImpl->orNone("render target", desc.name, [&] {
         engine::Draft draft(mImpl->renderTargets);
-        draft.state() = { desc.color, desc.depth, desc.generateMips, desc.name };
+        draft.state() = { .color = desc.color,
+                          .depth = desc.depth,
+                          .generateMips = desc.generateMips,
+                          .level = static_cast<uint8_t>(desc.level),
+                          .layer = static_cast<uint16_t>(desc.layer),
+                          .others = desc.others,
+                          .hasContents = mImpl->textures.get(desc.color).hasContents,
+                          .name = desc.name };
         return draft.keep();
     });
 }

@@ -14,6 +14,7 @@
 #include "filament_core/passes/ExposurePass.h"
 #include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FogLightPass.h"
+#include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PostProcessPass.h"
@@ -30,6 +31,7 @@ namespace {
 
 using backend::Format;
 using framegraph::FrameGraph;
+using framegraph::TextureId;
 
 uint8_t probeTermsOf(prepare::FramePacket const& packet) {
     if (!packet.demand.needs(prepare::Effect::ReflectionProbes)) return 0;
@@ -137,6 +139,27 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
     if (resources.hasHalfFloats) context->precision = quality.shadingPrecision;
     context->arena = &arena;
     return context;
+}
+
+void describeAppPass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                     std::span<const FrameOutput> others) {
+    AppPass const& pass = context.appPasses.front();
+    const bool blends = pass.material->package.blending != shader::Blending::Opaque;
+    const TextureId target = importOutput(graph, output, blends && output.hasContents);
+    const std::span<TextureId> more = context.arena->array<TextureId>(others.size());
+    size_t count = 0;
+    for (FrameOutput const& other : others)
+        if (other.texture) more[count++] = importOutput(graph, other, blends && other.hasContents);
+    addFullScreenPass(graph, context,
+                      { .name = pass.name,
+                        .material = *pass.material,
+                        .inputs = pass.images,
+                        .block = pass.parameters,
+                        .target = target,
+                        .level = output.part.level,
+                        .layer = output.part.layer,
+                        .others = more.first(count),
+                        .clears = blends && !output.hasContents });
 }
 
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {

@@ -100,6 +100,7 @@ framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
     framegraph::ColorTarget target{ .overwrites = (pass.tiles.empty() || pass.fillsTarget) &&
                                                   pass.material.package.blending == shader::Blending::Opaque,
                                     .level = pass.level,
+                                    .layer = pass.layer,
                                     .resolve = pass.resolve };
     float4 const& color = pass.clearColor;
     if (pass.clears) target.clear = std::array{ color.x, color.y, color.z, color.w };
@@ -204,6 +205,9 @@ framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& cont
             [&](PassBuilder& builder) {
                 declareReads(builder, declared.inputs);
                 builder.writeColor(0, pass.target, targetOf(pass));
+                uint8_t slot = 1;
+                for (const framegraph::TextureId other : pass.others)
+                    builder.writeColor(slot++, other, { .overwrites = targetOf(pass).overwrites });
             },
             [of = &context, declared](PassContext& at) { return choose(at, *of, declared); },
             [of = &context, parts = declared.parts](PassContext& at, ChosenPipelines const& chosen) {

@@ -75,8 +75,10 @@ struct FullScreenPass {
     std::span<const FullScreenValue> values{};
     std::span<const std::byte> block{}; ///< instead of values: all of the material's parameters, as they are stored
     framegraph::TextureId target{};
-    framegraph::TextureId resolve{};         ///< of a target with several samples a pixel: receives their mean
-    uint8_t level = 0;                       ///< of the target
+    framegraph::TextureId resolve{};                 ///< of a target with several samples a pixel: receives their mean
+    uint8_t level = 0;                               ///< of the target
+    uint16_t layer = 0;                              ///< of the target
+    std::span<const framegraph::TextureId> others{}; ///< attachments 1, 2, ...: level 0 of textures of its size
     std::span<const FullScreenTile> tiles{}; ///< only these are drawn, with their own values; none: all of the target
     bool fillsTarget = false;                ///< the tiles do: what the target holds need not be kept
     bool clears = false; ///< what lies outside of the tiles becomes `clearColor`; otherwise it keeps its contents

@@ -28,8 +28,9 @@ struct Clearing {
 };
 
 void place(FrameGraph& graph, FrameContext const& context, std::string_view material, framegraph::TextureId picture,
-           framegraph::TextureId target, Clearing const& clearing) {
-    const uint2 offset = context.settings().viewport->offset, size = context.settings().shownSize;
+           framegraph::TextureId target, Clearing const& clearing, OutputPart const& part = {}) {
+    FrameSettings const& settings = context.settings();
+    const uint2 offset = settings.viewport ? settings.viewport->offset : uint2(0), size = settings.shownSize;
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
     const std::array values{ FullScreenValue{ "offset", int2(offset) } };
     const std::array tiles{ FullScreenTile{
@@ -40,7 +41,10 @@ void place(FrameGraph& graph, FrameContext const& context, std::string_view mate
                         .material = context.resources.effects->get(material, {}, kPlace),
                         .inputs = inputs,
                         .target = target,
+                        .level = part.level,
+                        .layer = part.layer,
                         .tiles = tiles,
+                        .fillsTarget = !settings.viewport,
                         .clears = clearing.clears,
                         .clearColor = clearing.color });
 }
@@ -61,18 +65,33 @@ Format formatOfView(FrameSettings const& settings, Format target) {
 
 } // namespace
 
+framegraph::TextureId importOutput(FrameGraph& graph, FrameOutput const& output, bool isKept) {
+    OutputPart const& part = output.part;
+    if (!part.isOne)
+        return graph.importTexture(output.texture,
+                                   { .width = output.width,
+                                     .height = output.height,
+                                     .format = output.format,
+                                     .levels = output.srgbLevels,
+                                     .name = "output" },
+                                   isKept ? InitialContents::Keep : InitialContents::Undefined);
+    return graph.importTexture(output.texture,
+                               { .width = part.width,
+                                 .height = part.height,
+                                 .format = output.format,
+                                 .levels = part.levels,
+                                 .layers = part.layers,
+                                 .type = part.kind,
+                                 .name = "output" },
+                               InitialContents::Keep);
+}
+
 void beginViewportBlit(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                        FrameTargets& targets) {
     FrameSettings const& settings = context.settings();
-    const bool fills = fillsTarget(settings, output);
-    const bool isKept = !fills && !isCleared(*settings.viewport, output);
-    targets.target = graph.importTexture(output.texture,
-                                         { .width = output.width,
-                                           .height = output.height,
-                                           .format = output.format,
-                                           .levels = output.srgbLevels,
-                                           .name = "output" },
-                                         isKept ? InitialContents::Keep : InitialContents::Undefined);
+    const bool fills = fillsTarget(settings, output) && !output.part.isOne;
+    const bool isKept = !fills && settings.viewport && !isCleared(*settings.viewport, output);
+    targets.target = importOutput(graph, output, isKept);
     // A view that fills its target is drawn there directly. Others need an image of their own: passes write whole
     // targets.
     targets.output = fills ? targets.target
@@ -86,8 +105,10 @@ void addViewportBlitPass(FrameGraph& graph, FrameContext const& context, FrameOu
                          FrameTargets const& targets) {
     if (targets.output == targets.target) return;
     FrameSettings const& settings = context.settings();
-    place(graph, context, settings.isTranslucent() ? "place_over" : "place", targets.output, targets.target,
-          { isCleared(*settings.viewport, output), settings.viewport->clearColor });
+    Clearing clearing;
+    if (settings.viewport) clearing = { isCleared(*settings.viewport, output), settings.viewport->clearColor };
+    place(graph, context, settings.isTranslucent() ? "place_over" : "place", targets.output, targets.target, clearing,
+          output.part);
 }
 
 void addGuardBandCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {

@@ -10,7 +10,10 @@
 
 namespace filament_core::passes {
 
-/// Imports what the user asked for, and makes the image of the view if it has a place of its own.
+/// Imports what the user asked for. `isKept`: it is drawn over what the texture holds.
+framegraph::TextureId importOutput(framegraph::FrameGraph& graph, FrameOutput const& output, bool isKept);
+
+/// Imports it, and makes the image of the view if it has a place of its own.
 void beginViewportBlit(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                        FrameTargets& targets);
 void addViewportBlitPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,

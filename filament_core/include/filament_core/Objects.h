@@ -296,15 +296,21 @@ struct LightImageDescription {
 /// The target of a view. Materials may sample its textures in every render() except those that draw to it.
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
-    /// Renderable 2D RGBA8, RGBA8Srgb, RGB10A2, RGBA16F (then scene-linear, without tone mapping), or RGBA32F (then for
-    /// views with View::aov only). Of RGBA8Srgb the
-    /// texels are those of RGBA8, and samplers decode them. OpenGL ES needs EXT_sRGB_write_control for it: without, the
-    /// texture is not created, and takeErrors() reports it.
+    /// Renderable RGBA8, RGBA8Srgb, RGB10A2, RGBA16F (then scene-linear, without tone mapping), or RGBA32F (then for
+    /// views with View::aov, or passes alone). Of RGBA8Srgb the texels are those of RGBA8, and samplers decode them.
+    /// OpenGL ES needs EXT_sRGB_write_control for it: without, the texture is not created, and takeErrors() reports it.
     Texture color{};
-    /// Renderable 2D R32F of the same size: linear depth in metres; 1e30 for
-    /// background. Transparent surfaces are ignored. Null: no depth output.
+    /// Renderable 2D R32F of the size of what is drawn: linear depth in metres; 1e30 for background. Transparent
+    /// surfaces are ignored. Null: no depth output.
     Texture depth{};
-    bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb
+    bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb, 2D
+    uint32_t level = 0;        ///< of `color`, to which is drawn: the size of the target is that of the level
+    /// Of `color`, to which is drawn: a layer of an array, or a face of a cube (+X -X +Y -Y +Z -Z), or of an array of
+    /// cubes. What the others hold is kept.
+    uint32_t layer = 0;
+    /// At most three renderable 2D textures of the size of the target, and of any format that passes can write: the
+    /// attachments 1, 2, 3 of passes alone (Renderer::render(MaterialInstance, ...)). Views do not draw to them.
+    std::vector<Texture> others{};
     std::string name{};
 };
 

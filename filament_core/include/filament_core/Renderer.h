@@ -105,6 +105,13 @@ public:
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
+    /// Draws a pass of the app into a target, without a scene: a material of domain postprocess whose textures are all
+    /// the app's, and whose `outputs` are the colours of the target, in the order of `color`, `others`. It may blend
+    /// with what they hold. Of `view` it sees camera, timeSeconds and materialGlobals. Returns at once. A pass that
+    /// cannot be drawn is left out, and takeErrors() names the material, the reason and the cure. History, statistics
+    /// and explain() of views do not change.
+    void render(MaterialInstance pass, RenderTarget target, View const& view = {});
+
     /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before
     /// it have not reached the window yet: then it waits for the first of them, so that the app is never further ahead.
     /// A swap chain without a window, or without an image: no effect.

@@ -344,12 +344,15 @@ TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
     const Owned<Texture> plain = engine.own(engine.create(TextureDesc{ .width = kFilmSide, .height = kFilmSide }));
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{}), "a render target has a colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }),
-                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
+                 "renderable texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }),
-                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
+                 "renderable texture of RGBA8, RGBA8Srgb, RGB10A2, RGBA16F or RGBA32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = color }), "texture of R32F");
-    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as its colour");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as what is drawn");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .generateMips = true }), "has several levels");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .layer = 1 }), "the layer of a render target");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .others = { small } }),
+                 "as large as what is drawn");
     const Texture srgb = stage.texture(Format::RGBA8Srgb);
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = srgb, .generateMips = true }), "has several levels");
     EXPECT_DEATH((void)engine.create(SwapChainDesc{ .size = { 4, 4 }, .format = Format::RGBA8Srgb }),
