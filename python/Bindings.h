@@ -19,6 +19,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace filament_core::python {
 
@@ -55,7 +56,8 @@ struct EngineObject {
 /// The view of an image, and what it refers to.
 struct ViewObject {
     View view;
-    std::shared_ptr<TextureObject> dirt; ///< of Effects::bloom; null: none
+    std::shared_ptr<TextureObject> dirt;                                       ///< of Effects::bloom; null: none
+    std::vector<std::pair<std::shared_ptr<InstanceObject>, PassPlace>> passes; ///< View::postProcess
 };
 
 using EngineClass = py::class_<EngineObject>;

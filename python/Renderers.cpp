@@ -65,12 +65,18 @@ private:
     Drawing& mDrawing;
 };
 
-View viewOf(ViewObject const& view, Owner const& owner) {
+/// `passes`: those of the view, which refers to them.
+View viewOf(ViewObject const& view, Owner const& owner, std::vector<PostProcessPass>& passes) {
     View copy = view.view;
     if (view.dirt) {
         requireSame(owner, *view.dirt, "bloom_dirt");
         copy.effects.bloom.dirt = (*view.dirt)->get();
     }
+    for (auto const& [instance, place] : view.passes) {
+        requireSame(owner, *instance, "post_process");
+        passes.push_back({ (*instance)->instance, place });
+    }
+    copy.postProcess = passes;
     return copy;
 }
 
@@ -81,7 +87,8 @@ py::array render(DrawingObject const& self, SceneObject const& scene, ViewObject
     Owner& owner = *self.owner();
     const Owner::Call call(owner);
     requireSame(owner, scene, "scene");
-    const View settings = viewOf(view, owner);
+    std::vector<PostProcessPass> passes;
+    const View settings = viewOf(view, owner, passes);
     Drawing& drawing = *self;
     const DrawingMark mark(drawing);
     const Scene& content = *scene;
@@ -114,9 +121,9 @@ std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
     return aovs;
 }
 
-/// Of light or of surfaces, in an image that the device can draw.
-View plainViewOf(ViewObject const& view, Owner const& owner) {
-    View settings = viewOf(view, owner);
+/// Of light or of surfaces, in an image that the device can draw. `passes`: those of the view, which refers to them.
+View plainViewOf(ViewObject const& view, Owner const& owner, std::vector<PostProcessPass>& passes) {
+    View settings = viewOf(view, owner, passes);
     settings.debugView = DebugView::None;
     const uint32_t most = owner.device().maxTextureSize;
     if (settings.size.x > most || settings.size.y > most)
@@ -130,7 +137,8 @@ py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, View
     Owner& owner = *engine.owner;
     const Owner::Call call(owner);
     requireSame(owner, scene, "scene");
-    const View settings = plainViewOf(view, owner);
+    std::vector<PostProcessPass> passes;
+    const View settings = plainViewOf(view, owner, passes);
     const std::vector<Aov> aovs = aovsOf(names);
     const Scene& content = *scene;
     Result<std::vector<Image>> drawn = released([&] { return renderAovs(call.engine(), content, settings, aovs); });
@@ -184,7 +192,8 @@ py::dict renderSharesOf(EngineObject const& engine, SceneObject const& scene, Vi
     Owner& owner = *engine.owner;
     const Owner::Call call(owner);
     requireSame(owner, scene, "scene");
-    const View settings = plainViewOf(view, owner);
+    std::vector<PostProcessPass> passes;
+    const View settings = plainViewOf(view, owner, passes);
     const std::vector<LightGroup> grouped = groupsOf(scene, groups);
     ShareOptions options = shareOptionsOf(terms, frames);
     options.groups = grouped;
@@ -206,7 +215,8 @@ py::object explainPixelOf(EngineObject const& engine, SceneObject const& scene, 
     Owner& owner = *engine.owner;
     const Owner::Call call(owner);
     requireSame(owner, scene, "scene");
-    const View settings = plainViewOf(view, owner);
+    std::vector<PostProcessPass> passes;
+    const View settings = plainViewOf(view, owner, passes);
     const ShareOptions options = shareOptionsOf(terms, frames);
     if (x < 0 || x >= int64_t{ settings.size.x } || y < 0 || y >= int64_t{ settings.size.y })
         raiseInvalid("pixel: {}, {} is not in a view of {} x {} pixels", x, y, settings.size.x, settings.size.y);

@@ -135,6 +135,23 @@ void setCamera(ViewObject& self, py::object const& worldFromView) {
     self.view.camera.worldFromView = matrix;
 }
 
+std::vector<std::pair<std::shared_ptr<InstanceObject>, std::string>> passesOf(ViewObject const& self) {
+    std::vector<std::pair<std::shared_ptr<InstanceObject>, std::string>> passes;
+    for (auto const& [instance, place] : self.passes) passes.emplace_back(instance, toString(place));
+    return passes;
+}
+
+void setPasses(ViewObject& self, std::vector<std::pair<std::shared_ptr<InstanceObject>, std::string>> const& passes) {
+    decltype(self.passes) read;
+    for (auto const& [instance, name] : passes) {
+        const std::optional<PassPlace> place = enumFromName<PassPlace>(name);
+        if (!place) raiseInvalid("post_process: '{}' is not {}", name, listed(enumNames<PassPlace>()));
+        if (!instance) raiseInvalid("post_process: a pass has a MaterialInstance, not None");
+        read.emplace_back(instance, *place);
+    }
+    self.passes = std::move(read);
+}
+
 std::array<float, 4> clearColorOf(ViewObject const& self) {
     const float4 c = self.view.clearColor;
     return { c.x, c.y, c.z, c.w };
@@ -164,7 +181,10 @@ void bindOptions(py::class_<ViewObject, std::shared_ptr<ViewObject>>& view) {
             .def_property(
                     "bloom_dirt", [](ViewObject const& self) { return self.dirt; },
                     [](ViewObject& self, std::shared_ptr<TextureObject> dirt) { self.dirt = std::move(dirt); },
-                    "The dirt of the lens that bloom shows: a Texture with mip levels, or None.");
+                    "The dirt of the lens that bloom shows: a Texture with mip levels, or None.")
+            .def_property("post_process", &passesOf, &setPasses,
+                          "Passes over the picture: a list of (MaterialInstance of domain postprocess, place), where "
+                          "the place is afterOpaque, beforeToneMapping, afterToneMapping or last.");
 }
 
 void bindCamera(py::class_<ViewObject, std::shared_ptr<ViewObject>>& view) {

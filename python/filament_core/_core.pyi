@@ -198,6 +198,7 @@ class View:
     time_seconds: float
     clear_color: Any
     bloom_dirt: Optional[Texture]
+    post_process: List[Tuple[MaterialInstance, str]]
     world_from_view: Any
     @property
     def exposure_factor(self) -> float: ...

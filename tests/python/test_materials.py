@@ -106,6 +106,52 @@ class Parameters(unittest.TestCase):
         self.assertRaises(fc.InvalidArgumentError, shape.set_material, instance)
 
 
+PASS = """
+material {
+    name : Adder,
+    domain : postprocess,
+    parameters : [ { type : sampler2d, name : color }, { type : float, name : share } ]
+}
+fragment {
+    void postProcess(inout PostProcessInputs inputs) {
+        inputs.color = texelFetch(materialParams_color, getPixel(), 0) + vec4(vec3(materialParams.share), 0.0);
+    }
+}
+"""
+
+
+class Passes(unittest.TestCase):
+    def setUp(self):
+        self.engine = fc.Engine("gles")
+        self.addCleanup(self.engine.close)
+
+    def test_follow_each_other_over_the_picture(self):
+        material = self.engine.load_material(fc.compile_material_text(PASS))
+        view, renderer, scene = flat_view(4, 4), fc.Renderer(self.engine), fc.Scene(self.engine)
+        view.clear_color = (0, 0, 0, 1)
+        passes = []
+        for share, place in ((0.25, "last"), (0.5, "beforeToneMapping")):
+            instance = material.instance()
+            instance.set("share", share)
+            passes.append((instance, place))
+        view.post_process = passes
+        self.assertEqual([place for _, place in view.post_process], ["last", "beforeToneMapping"])
+        self.assertEqual(renderer.render(scene, view, output="light")[0, 0].tolist(), [0.75, 0.75, 0.75, 1])
+        view.post_process = []
+        self.assertEqual(renderer.render(scene, view, output="light")[0, 0].tolist(), [0, 0, 0, 1])
+
+    def test_that_cannot_be_drawn_are_refused(self):
+        surface = self.engine.built_in_material("unlit").instance()
+        view = flat_view(4, 4)
+        with self.assertRaises(fc.InvalidArgumentError) as caught:
+            view.post_process = [(surface, "first")]
+        self.assertIn("afterOpaque", str(caught.exception))
+        view.post_process = [(surface, "last")]
+        with self.assertRaises(fc.Error) as caught:
+            fc.Renderer(self.engine).render(fc.Scene(self.engine), view)
+        self.assertIn("domain : postprocess", str(caught.exception))
+
+
 class Models(unittest.TestCase):
     def setUp(self):
         self.engine = fc.Engine("gles")
