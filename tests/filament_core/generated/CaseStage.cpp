@@ -30,6 +30,15 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
 constexpr std::string_view kSign = R"(material { name : sign, shadingModel : unlit, requires : [ uv0 ] }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
     material.baseColor = vec4(getUV0(), 3.0, 1.0); } })";
+constexpr std::string_view kEcho = R"(material { name : echo, domain : postprocess, parameters : [
+    { type : sampler2d, name : color }, { type : sampler2d, name : depth }, { type : sampler2d, name : normals },
+    { type : sampler2d, name : history } ] }
+fragment { void postProcess(inout PostProcessInputs inputs) {
+    vec2 at = getNormalizedUV();
+    vec4 color = texelFetch(materialParams_color, getPixel(), 0);
+    float near = 1.0 / (1.0 + texture(materialParams_depth, at).x);
+    vec3 light = color.rgb + 0.25 * near * (texture(materialParams_normals, at).xyz + 1.0);
+    inputs.color = vec4(mix(light, texture(materialParams_history, at).rgb, 0.25), color.a); } })";
 
 } // namespace
 
@@ -46,7 +55,7 @@ CaseStage::~CaseStage() { expectNoErrors(*mEngine); }
 void CaseStage::makeMaterials() {
     for (const auto& [name, text] :
          { std::pair("metal", kMetal), std::pair("paint", kPaint), std::pair("glass", kGlass), std::pair("film", kFilm),
-           std::pair("fence", kFence), std::pair("sign", kSign) }) {
+           std::pair("fence", kFence), std::pair("sign", kSign), std::pair("echo", kEcho) }) {
         const auto material = mEngine->create(MaterialDesc{ .package = compiledPackage(text) });
         ASSERT_TRUE(material.ok());
         mMaterials[name] = mEngine->own(*material);
@@ -133,6 +142,8 @@ Image CaseStage::drawFrames(Target target, ViewCase const& viewCase, View view, 
     debug.box(Box{ float3(-1), float3(1) }, { .color = { 1, 1, 0, 0.7f }, .widthPixels = 1.5f });
     debug.screenText({ 1, 1 }, "Ag", {});
     if (viewCase.hasDebugDraw) view.debugDraw = &debug;
+    const PostProcessPass echo{ mInstances.find("echo")->second, viewCase.pass.value_or(PassPlace::Last) };
+    if (viewCase.pass) view.postProcess = std::span(&echo, 1);
     if (viewCase.hasDirt) view.effects.bloom.dirt = mDirt;
     ReflectionProbe probe;
     if (viewCase.hasProbe)

@@ -118,6 +118,11 @@ std::vector<ViewFactor> factorsOfPixels() {
               [](ViewCase& c) {
                   c.view.effects.sharpening = { true, 1 };
               } } } },
+        { "postProcess",
+          { { "none", [](ViewCase&) {} },
+            { "afterOpaque", [](ViewCase& c) { c.pass = PassPlace::AfterOpaque; } },
+            { "afterToneMapping", [](ViewCase& c) { c.pass = PassPlace::AfterToneMapping; } },
+            { "last", [](ViewCase& c) { c.pass = PassPlace::Last; } } } },
         { "debugDraw", { { "off", [](ViewCase&) {} }, { "on", [](ViewCase& c) { c.hasDebugDraw = true; } } } },
     };
 }

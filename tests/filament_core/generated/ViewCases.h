@@ -7,6 +7,7 @@
 
 #include <filament_core/filament_core.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct ViewCase {
     View view{};
     SeenScene scene = SeenScene::Everything;
     SeenTarget target = SeenTarget::Rgba8;
+    std::optional<PassPlace> pass{}; ///< of a pass of the app that reads all inputs
     bool hasDirt = false, hasDebugDraw = false, hasProbe = false, moves = false;
     std::string words; ///< "size=1x1 samples=4 ...": its values, for messages
 };
