@@ -415,7 +415,10 @@ struct Renderer::Impl final : engine::Dependent {
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
     struct Alone {
-        explicit Alone(Engine& of) : renderer(of), nothing(of) {}
+        explicit Alone(Engine& of) : renderer(of), nothing(of) {
+            // Replays are found by their number: these are not to be taken for frames of views.
+            renderer.mImpl->frame = uint64_t{ 1 } << 32;
+        }
         Renderer renderer;
         Scene nothing;
     };
