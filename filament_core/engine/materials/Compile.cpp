@@ -130,10 +130,11 @@ void addRequests(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t>
 Result<Compilation> Engine::Impl::compile(Material handle, CompileDesc const& desc) {
     scene::Material& material = materials.get(handle);
     if (material.package.domain != MaterialDomain::Surface) {
-        return fail(ErrorCode::InvalidArgument,
-                    "compile: material '{}' is of domain postprocess: renderables cannot "
-                    "have it",
-                    material.name);
+        return fail(
+                ErrorCode::InvalidArgument,
+                "compile: material '{}' is of domain postprocess, which no renderable has; Renderer::prewarm() makes "
+                "the pipelines of View::postProcess",
+                material.name);
     }
     auto variants = variantKeys(material, desc.variants);
     if (!variants) return variants.error();
