@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that change what exists allocate nothing from the heap, on no thread: vertices, indices, texels, lights,
-// nodes, parameters, visibility, animations.
+// nodes, parameters, visibility, animations, passes of the app.
+#include "shaders/package/EngineMaterials.h"
 #include "tests/faults/FailingAllocator.h"
 #include "tests/faults/FaultStage.h"
 
@@ -32,8 +33,14 @@ public:
               instance(engine.own(engine.createInstance(material))),
               model(loadGltf(engine, tools::sourceDir() / "tests/conformance/scenes/models/animated.gltf").value()),
               animator(model, scene, scene.add(model)),
+              light(engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("light") }))),
+              depth(engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("debug_depth") }))),
+              ofLight(engine.own(engine.createInstance(light))),
+              ofDepth(engine.own(engine.createInstance(depth))), passes{ { { ofLight, PassPlace::AfterOpaque },
+                                                                           { ofDepth, PassPlace::Last } } },
               frames(engine.own(engine.create(SwapChainDesc{ .size = view.size }))) {
         EXPECT_TRUE(engine.set(instance, "baseColorMap", picture));
+        view.postProcess = passes;
         for (int i = 0; i < kNodes; ++i) {
             nodes[static_cast<size_t>(i)] = scene.add(NodeDesc{});
             renderables[static_cast<size_t>(i)] = scene.add({ .vertices = vertices,
@@ -60,6 +67,9 @@ public:
     Owned<MaterialInstance> instance;
     Model model; // properties of materials, lights, nodes and maps
     Animator animator;
+    Owned<Material> light, depth; ///< of pictures
+    Owned<MaterialInstance> ofLight, ofDepth;
+    std::array<PostProcessPass, 2> passes; ///< the depths over the light
     Owned<SwapChain> frames;
     std::array<Node, kNodes> nodes;
     std::array<Renderable, kNodes> renderables;
@@ -127,10 +137,14 @@ void animate(SteadyStage& stage, int frame) {
     stage.animator.crossFade(0, seconds, 0, 1 - seconds, 0.25);
 }
 
+void drawPasses(SteadyStage& stage, int frame) {
+    stage.passes[0].place = frame % 2 == 0 ? PassPlace::AfterOpaque : PassPlace::AfterToneMapping;
+}
+
 constexpr std::array kChanges{
     Change{ "vertices", updateVertices },  Change{ "indices", updateIndices }, Change{ "texels", updateTexels },
     Change{ "lights", setLights },         Change{ "nodes", moveNodes },       Change{ "parameters", setParameters },
-    Change{ "visibility", setVisibility }, Change{ "animations", animate },
+    Change{ "visibility", setVisibility }, Change{ "animations", animate },    Change{ "passes", drawPasses },
 };
 
 constexpr Change kNothing{ "nothing", [](SteadyStage&, int) {} };
