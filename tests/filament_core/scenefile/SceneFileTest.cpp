@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <random>
 #include <string>
 
 namespace filament_core {
@@ -139,6 +140,31 @@ TEST(SceneFile, AnEditThatFailsChangesNothing) {
     EXPECT_TRUE(file == before);
     EXPECT_EQ(file.set("points[0].candela", "-1").error().message,
               "scene points[0]: candela: expected a number from 0 to 1000000000");
+}
+
+// Keys and values of random pieces: each is set or refused, and the file can be read again.
+TEST(SceneFile, EveryKeyIsSetOrRefused) {
+    constexpr const char* kPieces[] = { "camera", "points", "model",    "features", "effects", "view", "eye",
+                                        ".",      "[0]",    "[1]",      "[",        "]",       "[-1]", "fog.density",
+                                        "on",     "{}",     "[{}]",     "1e400",    "null",    "\"",   "0,1,2",
+                                        "copies", "at",     "\xff\xfe", "objects",  "",        "size" };
+    std::mt19937 random(3);
+    const auto text = [&](uint32_t most) {
+        std::string joined;
+        for (size_t i = random() % (most + 1); i > 0; --i) joined += kPieces[random() % std::size(kPieces)];
+        return joined;
+    };
+    SceneFile file;
+    size_t edits = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const std::string key = text(4), value = text(2);
+        const bool isSet = random() % 8 == 0 ? file.erase(key).ok() : file.set(key, value).ok();
+        edits += isSet;
+        if (!isSet) continue;
+        const Result<SceneFile> again = SceneFile::parse(file.text());
+        ASSERT_TRUE(again.ok()) << key << "=" << value << ": " << again.error().message;
+    }
+    EXPECT_GT(edits, 20u);
 }
 
 TEST(SceneFile, LightsOfTheApiComeBack) {
