@@ -2,6 +2,7 @@
 // What a viewer reads and writes: files, the clipboard, images, recordings.
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/app/Viewer.h"
+#include "tools/view/document/DocumentScene.h"
 #include "tools/view/panels/MaterialRows.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,17 @@ namespace {
 
 PictureFormat pictureFormatOf(FrameKind kind) {
     return kind == FrameKind::Exr ? PictureFormat::Exr : PictureFormat::Png;
+}
+
+/// For other programs; returns what happened, in words.
+std::string saveScene(std::filesystem::path const& file, Document const& document, bool modelHasLight) {
+    const Result<DocumentScene> scene = sceneOf(document, modelHasLight);
+    if (!scene) return "no scene file: " + scene.error().message;
+    if (const Result<void> saved = scene->file.save(file); !saved) return saved.error().message;
+    std::string text = fmt::format("saved {}", file.string());
+    for (size_t i = 0; i < scene->missing.size(); ++i)
+        text += fmt::format("{} {}", i == 0 ? ", without" : ",", scene->missing[i]);
+    return text;
 }
 
 } // namespace
@@ -87,7 +99,11 @@ void Viewer::saveDocumentFile() {
     const std::filesystem::path file = freshName(".json");
     const Result<void> saved = saveDocument(file, mDocument);
     note(saved ? fmt::format("saved {}", file.string()) : saved.error().message);
-    if (saved) mSaved = mDocument;
+    if (!saved) return;
+    mSaved = mDocument;
+    Model const* model = mStage ? mStage->model() : nullptr; // null without a device
+    std::filesystem::path sceneFile = file;
+    note(saveScene(sceneFile.replace_extension(".scene.json"), mDocument, model && model->environment()));
 }
 
 void Viewer::keepEdits() {

@@ -2,6 +2,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/view/document/DocumentVersion.h"
+#include "tools/view/document/SceneDocument.h"
 #include "tools/view/document/TextForms.h"
 
 #include <span>
@@ -25,6 +26,16 @@ Result<T> parsedFile(std::filesystem::path const& file, Result<T> (*parse)(std::
     return parse({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
 }
 
+/// The scene file, if it is one; otherwise what was wrong with the document.
+template <class T>
+Result<T> orSceneFile(std::filesystem::path const& file, Result<T> refused) {
+    const Result<SceneFile> scene = SceneFile::load(file);
+    if (!scene) return refused;
+    Result<Document> document = documentOf(*scene);
+    if (!document) return document.error();
+    return T(std::move(*document));
+}
+
 } // namespace
 
 Result<void> saveDocument(std::filesystem::path const& file, Document const& document) {
@@ -35,10 +46,14 @@ Result<void> saveCameraPath(std::filesystem::path const& file, CameraPath const&
 }
 
 Result<Document> loadDocument(std::filesystem::path const& file) {
-    return parsedFile<Document>(file, documentFromJson);
+    Result<Document> document = parsedFile<Document>(file, documentFromJson);
+    return document ? document : orSceneFile(file, std::move(document));
 }
 
-Result<AnyText> loadAny(std::filesystem::path const& file) { return parsedFile<AnyText>(file, anyFromJson); }
+Result<AnyText> loadAny(std::filesystem::path const& file) {
+    Result<AnyText> any = parsedFile<AnyText>(file, anyFromJson);
+    return any ? any : orSceneFile(file, std::move(any));
+}
 
 Result<CameraPath> loadCameraPath(std::filesystem::path const& file) {
     Result<AnyText> any = loadAny(file);
