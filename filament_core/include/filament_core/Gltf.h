@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers. It returns when that is done;
-/// loadGltfAsync() of <filament_core/LoadTicket.h> returns at once.
+/// loadGltfAsync() of <filament_core/LoadTicket.h> returns at once. By its ending a file may also be an .obj with its
+/// .mtl, a .ply or an .stl (docs/gltf.md).
 ///   Errors  NotFound, Unreadable, Corrupt, Unsupported: one line with file, element (accessors[3], images[0]) and
 ///           reason.
 ///   Life    the Model owns its buffers, textures and materials; copies of it in scenes keep what they need of it.
@@ -21,7 +22,7 @@
 
 namespace filament_core {
 
-/// A model in memory, .glb or .gltf.
+/// A model in memory, .glb or .gltf; or what the ending of `name` says: .obj, .ply, .stl.
 struct GltfMemory {
     std::span<const std::byte> file{}; ///< not needed after the call; loadGltfAsync() copies it
     std::string name = "model";        ///< for Model::name() and messages
