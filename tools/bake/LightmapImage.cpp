@@ -131,6 +131,31 @@ LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, 
     return image;
 }
 
+LightmapImage makeChartImage(Atlas const& atlas, double lux) {
+    LightmapImage image{ .side = atlas.side, .pages = atlas.pages };
+    image.texels.assign(size_t(atlas.side) * atlas.side * atlas.pages, double4(0, 0, 0, 1));
+    for (uint32_t i = 0; i < atlas.charts.size(); ++i) {
+        AtlasChart const& chart = atlas.charts[i];
+        const double hue = 6 * std::fmod(i * 0.618033988749895, 1.0); // neighbours differ: the golden ratio
+        const double3 color =
+                glm::clamp(double3(std::abs(hue - 3) - 1, 2 - std::abs(hue - 2), 2 - std::abs(hue - 4)), 0.2, 1.0);
+        for (uint32_t y = 0; y < chart.size.y; ++y) {
+            for (uint32_t x = 0; x < chart.size.x; ++x) {
+                const uint2 inner = uint2(x, y) - chart.padding; // wraps around below 0
+                const bool isInside = inner.x < chart.inner.x && inner.y < chart.inner.y;
+                const double shade = isInside ? ((x + y) % 2 == 0 ? 2.0 : 1.0) : 0.25;
+                const size_t at = size_t(chart.place.y + y) * atlas.side + chart.place.x + x;
+                image.texels[at] = double4(lux * shade * color, 1.0);
+            }
+        }
+    }
+    constexpr double3 kLevels[kMostLevels - 1] = { { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 2, 2, 0 }, { 2, 0, 2 } };
+    for (uint32_t level = 1; level < atlas.levels; ++level)
+        image.smaller.emplace_back(image.texels.size() >> (2 * level), double4(lux * kLevels[level - 1], 1.0));
+    image.intensity = std::ldexp(1.0, std::ilogb(std::max(2 * lux, 1e-30)) + 1 - kTopExponent);
+    return image;
+}
+
 assets::Image halvesOf(LightmapImage const& image) {
     assets::Image halves{ .width = image.side,
                           .height = image.side * image.pages,

@@ -30,6 +30,11 @@ struct LightmapImage {
 
 LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights);
 
+/// A lightmap that shows the charts instead of light: a colour for each, texels as a checkerboard, padding darker. The
+/// levels below the first are red, green, blue, yellow and violet. The mean is about `lux`, so that the exposure of the
+/// light suits it. Openness is 1.
+LightmapImage makeChartImage(Atlas const& atlas, double lux);
+
 /// As RGBA16F, all levels, with the pages below each other.
 assets::Image halvesOf(LightmapImage const& image);
 /// One of these pages.

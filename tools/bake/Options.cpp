@@ -16,8 +16,8 @@ using tools::wholeNumber;
 
 struct Words {
     std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", maxPages = "16",
-                levels = "4", store = "half", openness, samples = "1024", error, maxBounces = "64", seed = "1",
-                heldOut = "256", direct, shard, threads;
+                levels = "4", store = "half", openness, showCharts, samples = "1024", error, maxBounces = "64",
+                seed = "1", heldOut = "256", direct, shard, threads;
     std::string fov = "50", size = "480x272", spp = "64"; // of the report
     std::vector<std::string> sun, exposure, merge, eye, at;
 };
@@ -57,6 +57,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--seed", words.seed, "seed of the noise (1)");
     app.option("--held-out", words.heldOut,
                "points between the texels that are traced to judge the lightmap; fewer than 59 bound nothing (256)");
+    app.option("--show-charts", words.showCharts,
+               "on or off: also write charts.glb, the model with its charts, texels and levels as colours (off)");
     app.option("--grid", options.grid, "a JSON file: bake the irradiance grid that it describes instead of a lightmap")
             .typeName("FILE");
     app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
@@ -135,6 +137,7 @@ Result<void> convertLight(Words const& words, Options& options) {
     if (format == kLightmapFormatNames.end()) return invalidOption("--store", words.store, "half, rgb9e5 or bc6h");
     options.storage.format = static_cast<LightmapFormat>(format - kLightmapFormatNames.begin());
     if (auto done = tools::convertSwitch("--openness", words.openness, options.storage.hasOpenness); !done) return done;
+    if (auto done = tools::convertSwitch("--show-charts", words.showCharts, options.showsCharts); !done) return done;
     if (auto done = whole("--samples", words.samples, kLeastPasses, 1u << 20, options.light.samplesPerTexel); !done)
         return done;
     if (auto done = whole("--max-bounces", words.maxBounces, 1, 4096, options.light.maxBounces); !done) return done;

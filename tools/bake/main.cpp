@@ -91,6 +91,18 @@ int finishedPart(Options const& options, RecordRange range, size_t all) {
     return 0;
 }
 
+/// The model whose lightmap shows its charts, at about the brightness of the light.
+Result<void> writeCharts(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+                         jobs::JobSystem& jobs) {
+    double lux = 0;
+    for (TexelLight const& light : lights) lux += luminanceOf(light.irradiance) / double(lights.size());
+    const LightmapImage image = makeChartImage(bake.atlas, lux > 0 ? lux : 1);
+    StoredLightmap stored = storeLightmap(image, {}, {}, { .hasOpenness = false }, jobs);
+    const LightmapEntry entry{ std::move(stored.pages), {}, image.intensity, options.light.directLight };
+    const Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
+    return file ? assets::replaceFile(options.out / "charts.glb", *file) : file.error();
+}
+
 int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                   jobs::JobSystem& jobs) {
     const auto texels = lights.first(bake.texels.size());
@@ -102,6 +114,9 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     if (!file) return failed(file.error());
     const std::filesystem::path path = options.out / "baked.glb";
     if (auto done = assets::replaceFile(path, *file); !done) return failed(done.error());
+    if (options.showsCharts) {
+        if (auto done = writeCharts(options, bake, texels, jobs); !done) return failed(done.error());
+    }
     if (auto done = writeReport(options, bake, lights, image, stored); !done) return failed(done.error());
     if (!options.report.file.empty()) {
         if (auto done = writeLightmapPage(options, bake, lights, image, stored, path, jobs); !done)

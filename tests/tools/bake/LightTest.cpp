@@ -312,6 +312,28 @@ TEST(LightmapImage, SmallerLevelsKnowTheirOwnChartAlone) {
     EXPECT_EQ(halves.data.size(), halves.levelOffset(5));
 }
 
+// Each texel of a look-up has the colour of its chart, and each level one of its own.
+TEST(LightmapImage, ShowsChartsAndLevelsAsColours) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const std::array surfaces{ floorSurface(5), floorSurface(11) };
+    const Result<Atlas> atlas = makeAtlas(surfaces, { .texelsPerMeter = 1, .levels = 3 }, jobs);
+    ASSERT_TRUE(atlas);
+    const LightmapImage image = makeChartImage(*atlas, 100);
+    std::array<double3, 2> hues{ double3(0.0), double3(0.0) };
+    for (AtlasTexel const& texel : findTexels(*atlas)) {
+        if (texel.distance > 0) continue;
+        const double3 color(image.texels[size_t(texel.y) * image.side + texel.x]);
+        double3& hue = hues[texel.chart];
+        if (hue == double3(0.0)) hue = glm::normalize(color);
+        EXPECT_NEAR(glm::dot(glm::normalize(color), hue), 1, 1e-9);
+    }
+    EXPECT_LT(glm::dot(hues[0], hues[1]), 0.95);
+    ASSERT_EQ(image.smaller.size(), 2u);
+    EXPECT_EQ(double3(image.smaller[0][0]), double3(200, 0, 0));
+    EXPECT_EQ(image.smaller[1].size(), image.texels.size() / 16);
+    EXPECT_LT(200 / image.intensity, std::ldexp(1.0, kTopExponent));
+}
+
 class JournalTest : public ::testing::Test {
 protected:
     void SetUp() override {

@@ -112,7 +112,7 @@ TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
 // A primitive whose charts lie on two pages becomes two, with the triangles of each.
 TEST_F(BakeProgram, GoesOnToFurtherPagesWhereOneIsFull) {
     ASSERT_EQ(run(std::string(kQuick) + "--out one").status, 0);
-    const Outcome outcome = run(std::string(kQuick) + "--max-size 24 --levels 3 --out pages");
+    const Outcome outcome = run(std::string(kQuick) + "--max-size 24 --levels 3 --show-charts on --out pages");
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr(" pages"));
     EXPECT_TRUE(std::filesystem::exists(mFolder / "pages/lightmap-1.png"));
@@ -123,6 +123,9 @@ TEST_F(BakeProgram, GoesOnToFurtherPagesWhereOneIsFull) {
     const Result<assets::ModelData> pages = assets::loadGltf(mFolder / "pages/baked.glb", jobs);
     ASSERT_TRUE(one && pages) << pages.error().message;
     EXPECT_TRUE(pages->warnings.empty()) << pages->warnings.front();
+    const Result<assets::ModelData> charts = assets::loadGltf(mFolder / "pages/charts.glb", jobs);
+    ASSERT_TRUE(charts) << charts.error().message;
+    EXPECT_EQ(charts->meshes.size(), pages->meshes.size());
     std::set<uint32_t> images;
     size_t triangles = 0, primitives = 0;
     for (assets::MeshData const& mesh : pages->meshes) {
