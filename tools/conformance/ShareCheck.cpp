@@ -69,13 +69,13 @@ Result<void> explain(Engine& engine, Scene const& scene, View const& view, uint3
 } // namespace
 
 std::string ShareTally::line() const {
-    return fmt::format("shares of {} cases ({} left out): {} terms of light, {} of effects, {} pixels, {} of them not "
+    return fmt::format("shares of {} pictures ({} left out): {} terms of light, {} of effects, {} pixels, {} of them not "
                        "finite, {} with another sum; {} pixels explained",
-                       cases, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained);
+                       pictures, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained);
 }
 
 ShareTally& ShareTally::operator+=(ShareTally const& more) {
-    cases += more.cases, leftOut += more.leftOut, terms += more.terms, effects += more.effects;
+    pictures += more.pictures, leftOut += more.leftOut, terms += more.terms, effects += more.effects;
     pixels += more.pixels, notFinite += more.notFinite, wrong += more.wrong, explained += more.explained;
     return *this;
 }
@@ -93,7 +93,7 @@ Result<ShareVerdict> checkShares(Engine& engine, Scene const& scene, View const&
     if (!picture) return picture.error();
     const Result<Shares> shares = renderShares(engine, scene, whole, { .terms = ShareTerms::All, .frames = frames });
     if (!shares) return shares.error();
-    verdict.tally.cases = 1;
+    verdict.tally.pictures = 1;
     verdict.tally.terms = static_cast<uint32_t>(shares->terms.size());
     for (ShareTerm const& term : shares->terms) verdict.tally.effects += term.kind == ShareKind::Effect ? 1 : 0;
     for (Image const& sum : shares->sums) verdict.hash = verdict.hash * 31 + hashBytes(sum.pixels);

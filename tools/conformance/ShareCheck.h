@@ -12,9 +12,9 @@
 
 namespace filament_core::conformance {
 
-/// Of a case, or of all of them together.
+/// Of a case on one API, or of all of them together.
 struct ShareTally {
-    uint32_t cases = 0, leftOut = 0, terms = 0, effects = 0;
+    uint32_t pictures = 0, leftOut = 0, terms = 0, effects = 0;
     uint64_t pixels = 0, notFinite = 0, wrong = 0;
     uint32_t explained = 0; ///< pixels that explainPixel() took apart
     std::string line() const;
