@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Un
 import numpy as np
 import numpy.typing as npt
 
-_Path = Union[str, bytes, os.PathLike]
+_Path = Union[str, bytes, os.PathLike[str]]
 _Vector = Union[Sequence[float], npt.NDArray[Any]]
 _Matrix = npt.ArrayLike
 _Picture = npt.NDArray[Any]
@@ -57,7 +57,7 @@ class Engine:
                     name: str = "") -> LightImage: ...
     def load_light_image(self, path: _Path, *, shape: str = "projected") -> LightImage: ...
     def load_texture(self, path: _Path, *, content: str = "color") -> Texture: ...
-    def load_material(self, package: Union[bytes, str, os.PathLike], *,
+    def load_material(self, package: Union[bytes, str, os.PathLike[str]], *,
                       constants: Mapping[str, Union[bool, int, float]] = ..., name: str = "") -> Material: ...
     def built_in_material(self, name: str) -> Material: ...
     def mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, *, normals: Optional[npt.ArrayLike] = None,

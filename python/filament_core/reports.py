@@ -23,6 +23,14 @@ MAX_BYTES = 256 << 20
 _MISSING = object()
 
 
+class _Named(typing.Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+_T = typing.TypeVar("_T", bound=_Named)
+
+
 @dataclasses.dataclass(frozen=True)
 class ConformanceComparison:
     """A case drawn in another way than the reference: another API, or another number of workers."""
@@ -105,7 +113,7 @@ class AccuracyReport:
         return _named(self.effects, name, "effect")
 
 
-def load_conformance(path: typing.Union[str, os.PathLike]) -> ConformanceReport:
+def load_conformance(path: typing.Union[str, "os.PathLike[str]"]) -> ConformanceReport:
     """Reads results.json of filament-conformance, or that of its output folder."""
     root = _read(path)
     devices = root.get("devices", dict, {})
@@ -114,7 +122,7 @@ def load_conformance(path: typing.Union[str, os.PathLike]) -> ConformanceReport:
                              cases=tuple(_case(case) for case in root.items("cases")))
 
 
-def load_accuracy(path: typing.Union[str, os.PathLike]) -> AccuracyReport:
+def load_accuracy(path: typing.Union[str, "os.PathLike[str]"]) -> AccuracyReport:
     """Reads results.json of filament-accuracy, or that of its output folder."""
     root = _read(path)
     if root.get("program", str) != "filament-accuracy" or root.get("version", int) != 1:
@@ -122,28 +130,28 @@ def load_accuracy(path: typing.Union[str, os.PathLike]) -> AccuracyReport:
     size = root.get("size", list)
     if len(size) != 2 or not all(type(side) is int and side >= 0 for side in size):
         raise CorruptError(f"{root.where}: size: not two whole numbers")
-    return AccuracyReport(machine=root.get("machine", str), commit=root.get("commit", str), size=tuple(size),
+    return AccuracyReport(machine=root.get("machine", str), commit=root.get("commit", str), size=(size[0], size[1]),
                           effects=tuple(_effect(effect) for effect in root.items("effects")))
 
 
-def _case(node):
+def _case(node: "_Node") -> ConformanceCase:
     return ConformanceCase(name=node.get("name", str), status=node.get("status", str),
                            reasons=node.texts("reasons"), hash=node.get("hash", str, ""),
                            comparisons=tuple(_comparison(one) for one in node.items("comparisons", [])))
 
 
-def _comparison(node):
+def _comparison(node: "_Node") -> ConformanceComparison:
     return ConformanceComparison(configuration=node.get("configuration", str), passed=node.get("passed", bool),
                                  differing=node.get("differing", int), max_difference=node.number("maxDifference"),
                                  fault=node.get("fault", str, ""))
 
 
-def _effect(node):
+def _effect(node: "_Node") -> AccuracyEffect:
     return AccuracyEffect(name=node.get("name", str), title=node.get("title", str), standard=node.get("standard", str),
                           best=node.get("best", str), values=tuple(_value(value) for value in node.items("values")))
 
 
-def _value(node):
+def _value(node: "_Node") -> AccuracyValue:
     times = node.get("milliseconds", dict, {})
     return AccuracyValue(value=node.get("value", str), set=node.texts("set"), error=node.number("error"),
                          own_error=node.number("ownError"), own_flip=node.number("ownFlip"),
@@ -151,7 +159,7 @@ def _value(node):
                          milliseconds={name: times.number(name) for name in times.names()} if times else {})
 
 
-def _named(items, name, what):
+def _named(items: "typing.Sequence[_T]", name: str, what: str) -> "_T":
     for item in items:
         if item.name == name:
             return item
@@ -161,16 +169,16 @@ def _named(items, name, what):
 class _Node:
     """An object of a JSON file, and where it is."""
 
-    def __init__(self, value, where):
+    def __init__(self, value: typing.Any, where: str) -> None:
         self.where = where
         if not isinstance(value, dict):
             raise CorruptError(f"{where}: not an object")
         self._value = value
 
-    def names(self):
+    def names(self) -> typing.List[str]:
         return list(self._value)
 
-    def get(self, name, kind, otherwise=_MISSING):
+    def get(self, name: str, kind: type, otherwise: typing.Any = _MISSING) -> typing.Any:
         value = self._value.get(name, otherwise)
         if value is _MISSING:
             raise CorruptError(f"{self.where}: '{name}' is missing")
@@ -181,7 +189,7 @@ class _Node:
             raise CorruptError(f"{self.where}: '{name}' is no {kind.__name__}")
         return _Node(value, f"{self.where}: {name}") if kind is dict else value
 
-    def number(self, name):
+    def number(self, name: str) -> float:
         value = self._value.get(name, _MISSING)
         if value is None:  # how JSON has what is not finite
             return float("nan")
@@ -189,10 +197,10 @@ class _Node:
             raise CorruptError(f"{self.where}: '{name}' is {'missing' if value is _MISSING else 'no number'}")
         return float(value)
 
-    def items(self, name, otherwise=_MISSING):
+    def items(self, name: str, otherwise: typing.Any = _MISSING) -> "typing.List[_Node]":
         return [_Node(one, f"{self.where}: {name}[{i}]") for i, one in enumerate(self.get(name, list, otherwise))]
 
-    def texts(self, name):
+    def texts(self, name: str) -> typing.Tuple[str, ...]:
         """A list of texts; none if it is missing."""
         values = self.get(name, list, [])
         if not all(isinstance(value, str) for value in values):
@@ -200,8 +208,8 @@ class _Node:
         return tuple(values)
 
 
-def _read(path):
-    path = pathlib.Path(path)
+def _read(file: typing.Union[str, "os.PathLike[str]"]) -> _Node:
+    path = pathlib.Path(file)
     try:
         if path.is_dir():
             path = path / "results.json"

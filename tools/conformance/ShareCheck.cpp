@@ -69,9 +69,10 @@ Result<void> explain(Engine& engine, Scene const& scene, View const& view, uint3
 } // namespace
 
 std::string ShareTally::line() const {
-    return fmt::format("shares of {} pictures ({} left out): {} terms of light, {} of effects, {} pixels, {} of them not "
-                       "finite, {} with another sum; {} pixels explained",
-                       pictures, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained);
+    return fmt::format(
+            "shares of {} pictures ({} left out): {} terms of light, {} of effects, {} pixels, {} of them not "
+            "finite, {} with another sum; {} pixels explained",
+            pictures, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained);
 }
 
 ShareTally& ShareTally::operator+=(ShareTally const& more) {
