@@ -22,7 +22,6 @@ constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
 constexpr double kProgressSeconds = 0.25; ///< between frames that show only how far loading has come
 constexpr double kFovDegrees = 40;        ///< of a camera that was parallel
-constexpr DebugView kLastDebugView = DebugView::Plausibility;
 
 constexpr float4 kBetweenPanels{ 0.06f, 0.06f, 0.06f, 1 }; ///< of the window; panels lie over it
 
@@ -47,8 +46,8 @@ std::optional<Action> actionOf(KeyEvent const& event) {
 }
 
 void showNextDebugView(Document& document) {
-    const auto next = static_cast<DebugView>(static_cast<int>(document.view.debugView) + 1);
-    document.view.debugView = next > kLastDebugView ? DebugView::None : next;
+    const size_t next = (static_cast<size_t>(document.view.debugView) + 1) % kDebugViewCount;
+    document.view.debugView = static_cast<DebugView>(next);
 }
 
 } // namespace
