@@ -93,6 +93,7 @@ private:
         auto const& kept = primitive.draco ? primitive.draco->ids.keptSets : primitive.attributes.keptSets;
         for (uint32_t i = 0; i < kUvSets; ++i) source.uvSets.push_back(kept[i]);
         source.surface = static_cast<uint32_t>(mModel.surfaces.size());
+        if (glm::determinant(double3x3(world)) != 0) source.meshFromWorld = glm::inverse(double3x3(world));
         mModel.surfaces.push_back(placed(source.geometry, world));
         mModel.sources.push_back(std::move(source));
     }

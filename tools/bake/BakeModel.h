@@ -5,8 +5,8 @@
 ///           the node or of one above it, no instances (EXT_mesh_gpu_instancing). Unlit materials get no light. What is
 ///           not baked is drawn as before; one warning for each reason names the first such node.
 ///   Out     the file with all its buffers and images inside. Each baked node has a mesh of its own, because places in
-///           the lightmap are not shared, with attributes as floats; materials name the lightmap (docs/baking.md). A
-///           primitive that lies on several pages becomes one for each of them.
+///           the lightmap are not shared, with attributes as floats; materials name the lightmap (docs/baking.md), or
+///           the occlusion. A primitive that lies on several pages becomes one for each of them.
 ///   Thread  one.  Memory: the file, and about 200 bytes a vertex.
 ///   Fails   as loadGltf(); InvalidArgument if nothing can be baked.
 #pragma once
@@ -24,6 +24,8 @@ namespace filament_core::bake {
 
 /// The extension of materials and textures that lightmaps are written as (assets/gltf/GltfParse.cpp reads it).
 inline constexpr const char* kLightmapExtension = "FILAMENT_lightmap";
+/// That of materials whose occlusion texture holds bent normals.
+inline constexpr const char* kBentNormalExtension = "FILAMENT_bent_normal";
 
 struct BakeModel {
     /// The primitive of a file's node that a surface is.
@@ -32,6 +34,7 @@ struct BakeModel {
         uint32_t surface = 0;                       ///< into `surfaces`
         std::string name;                           ///< of the node, for reports
         assets::GltfGeometry geometry;              ///< in the space of the mesh
+        double3x3 meshFromWorld{ 1.0 };             ///< of directions; not of unit length
         std::vector<uint32_t> uvSets;               ///< of geometry.uvs: TEXCOORD_n of the file
     };
     std::vector<BakeSurface> surfaces;
@@ -54,6 +57,18 @@ struct LightmapEntry {
     bool hasDirectLight = false;                  ///< of lamps
 };
 
+/// Or of baked occlusion, with bent normals (OcclusionImage.h).
+struct OcclusionEntry {
+    std::vector<std::vector<std::byte>> pages{}; ///< PNG files; of vertices one
+    bool hasBentNormals = true;
+    /// By surface and vertex, the visible part and the mean open direction in the world: the attributes _OCCLUSION and
+    /// _BENT_NORMAL, for other programs (VertexFit.h); none: no such attributes.
+    std::vector<std::vector<double4>> vertices{};
+};
+
 Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light);
+/// In place of the occlusion textures that the model has.
+Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas,
+                                               OcclusionEntry const& occlusion);
 
 } // namespace filament_core::bake

@@ -78,7 +78,8 @@ uint64_t hashOf(Options const& options, BakeScene const& bake, reference::Refere
     LightSettings const& light = options.light;
     hasher.addNumbers({ double(bake.atlas.side), double(bake.atlas.pages), bake.atlas.texelsPerMeter,
                         double(light.samplesPerTexel), light.relativeError, double(light.directLight),
-                        double(light.maxBounces), double(light.seed), double(options.heldOutPoints) });
+                        double(light.maxBounces), double(light.seed), double(options.heldOutPoints),
+                        light.occlusionMeters.value_or(0) });
     return hasher.hash();
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace filament_core::bake {
 namespace {
@@ -18,6 +19,7 @@ struct Words {
     std::string iblIntensity = "30000", rotation = "0", density = "16", texels, maxSize = "4096", maxPages = "16",
                 levels = "4", store = "half", openness, showCharts, samples = "1024", error, maxBounces = "64",
                 seed = "1", heldOut = "256", direct, shard, threads;
+    std::string occlusion, occlusionDistance;
     std::string fov = "50", size = "480x272", spp = "64"; // of the report
     std::vector<std::string> sun, exposure, merge, eye, at;
 };
@@ -53,6 +55,11 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option(
             "--direct", words.direct,
             "on or off: light straight from lamps and the sun counts, too; the engine must then not draw them (off)");
+    app.option("--occlusion", words.occlusion,
+               "bake ambient occlusion and bent normals instead of light: texture, into occlusion textures; vertex, "
+               "into values of the vertices")
+            .typeName("texture|vertex");
+    app.option("--occlusion-distance", words.occlusionDistance, "metres beyond which nothing occludes (no limit)");
     app.option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
     app.option("--seed", words.seed, "seed of the noise (1)");
     app.option("--held-out", words.heldOut,
@@ -151,6 +158,30 @@ Result<void> convertLight(Words const& words, Options& options) {
     return tools::convertSwitch("--direct", words.direct, options.light.directLight);
 }
 
+Result<void> convertOcclusion(Words const& words, Options& options) {
+    if (words.occlusion.empty()) {
+        if (words.occlusionDistance.empty()) return {};
+        return fail(ErrorCode::InvalidArgument, "--occlusion-distance needs --occlusion");
+    }
+    options.occlusionOfVertices = words.occlusion == "vertex";
+    if (words.occlusion != "texture" && !options.occlusionOfVertices)
+        return invalidOption("--occlusion", words.occlusion, "texture or vertex");
+    if (!options.grid.empty())
+        return fail(ErrorCode::InvalidArgument, "--grid bakes light; give --occlusion without it");
+    if (options.storage.format != LightmapFormat::Half || !options.storage.hasOpenness || options.light.directLight)
+        return fail(ErrorCode::InvalidArgument,
+                    "--store, --openness and --direct are about light; give --occlusion without them");
+    double meters = std::numeric_limits<double>::infinity();
+    if (!words.occlusionDistance.empty()) {
+        if (auto done = number("--occlusion-distance", words.occlusionDistance, 1e-6, 1e6, "metres from 1e-6 to 1e6",
+                               meters);
+            !done)
+            return done;
+    }
+    options.light.occlusionMeters = meters;
+    return {};
+}
+
 /// An absent place does not change `result`.
 Result<void> convertPlace(const char* option, std::vector<std::string> const& words, std::optional<double3>& result) {
     std::array<double, 3> place{};
@@ -201,7 +232,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
-    for (auto convert : { convertScene, convertLight, convertReport, convertRun }) {
+    for (auto convert : { convertScene, convertLight, convertOcclusion, convertReport, convertRun }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

@@ -36,6 +36,7 @@ struct Options {
     uint32_t texels = 0; ///< a budget that Densities.h spends; 0: charts have the density of `atlas`
     StorageChoice storage{};
     LightSettings light{ .exposure = { .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 } };
+    bool occlusionOfVertices = false;         ///< with LightSettings::occlusionMeters; else in textures
     bool showsCharts = false;                 ///< writes the model with its charts in place of light, too
     uint32_t heldOutPoints = 256;             ///< of surfaces, between texels, that judge the lightmap
     std::filesystem::path grid;               ///< of an irradiance grid (GridProgram.h); empty: bake a lightmap

@@ -21,7 +21,15 @@ std::string const& nameOf(BakeScene const& bake, uint32_t chart) {
     return bake.model.sources[bake.atlas.charts[chart].surface].name;
 }
 
-Json chartsToJson(BakeScene const& bake, std::vector<ChartSummary> const& charts) {
+/// Of a light in lux, or of the visible part of the hemisphere.
+std::string keyOf(LightmapReport const& report, const char* stem) {
+    return report.isLight ? stem + std::string("Lux") : stem;
+}
+const char* fileStemOf(LightmapReport const& report) { return report.isLight ? "lightmap" : "occlusion"; }
+const char* unitOf(LightmapReport const& report) { return report.isLight ? "lux" : "of the hemisphere"; }
+
+Json chartsToJson(BakeScene const& bake, LightmapReport const& report) {
+    std::vector<ChartSummary> const& charts = report.charts;
     Json list = Json::array();
     for (uint32_t i = 0; i < charts.size(); ++i) {
         AtlasChart const& chart = bake.atlas.charts[i];
@@ -32,7 +40,7 @@ Json chartsToJson(BakeScene const& bake, std::vector<ChartSummary> const& charts
                          { "texels", charts[i].texels },
                          { "hidden", charts[i].hidden },
                          { "samples", charts[i].samples },
-                         { "meanLux", charts[i].meanLux },
+                         { keyOf(report, "mean"), charts[i].meanLux },
                          { "relativeError", charts[i].relativeError } });
     }
     return list;
@@ -73,21 +81,24 @@ std::string tableOf(std::vector<PageSummary> const& pages) {
     return table + "\n";
 }
 
-/// "lightmap.png", "lightmap-1.png", ...
-std::string pictureName(const char* stem, uint32_t page) {
-    return page == 0 ? fmt::format("{}.png", stem) : fmt::format("{}-{}.png", stem, page);
+Json storageToJson(Options const& options, StoredLightmap const& stored) {
+    return { { "format", kLightmapFormatNames[static_cast<size_t>(options.storage.format)] },
+             { "openness", options.storage.hasOpenness },
+             { "bytes", stored.bytes },
+             { "rmsLux", stored.error.rmsLux },
+             { "worstLux", stored.error.worstLux },
+             { "relativeError", stored.error.meanRelative },
+             { "opennessError", stored.error.opennessRms } };
 }
 
-/// A picture of each page; `pixels` has them below each other.
-Result<void> writePictures(Options const& options, const char* stem, LightmapImage const& image,
-                           std::vector<std::byte> const& pixels) {
-    const size_t bytes = size_t(image.side) * image.side * 4;
-    for (uint32_t page = 0; page < image.pages; ++page) {
-        const auto part = std::span(pixels).subspan(page * bytes, bytes);
-        if (auto done = assets::writePng(options.out / pictureName(stem, page), image.side, image.side, part); !done)
-            return done;
+void addSettings(Options const& options, LightmapImage const& image, StoredLightmap const& stored, Json& report) {
+    if (!options.light.occlusionMeters) {
+        report["intensityLux"] = image.intensity;
+        report["directLight"] = options.light.directLight;
+        report["storage"] = storageToJson(options, stored);
+    } else if (std::isfinite(*options.light.occlusionMeters)) {
+        report["occlusionMeters"] = *options.light.occlusionMeters;
     }
-    return {};
 }
 
 ChartSummary wholeOf(std::vector<ChartSummary> const& charts) {
@@ -107,51 +118,44 @@ ChartSummary wholeOf(std::vector<ChartSummary> const& charts) {
     return whole;
 }
 
-Json heldOutToJson(HeldOutReport const& heldOut) {
+Json heldOutToJson(LightmapReport const& report) {
+    HeldOutReport const& heldOut = report.heldOut;
     return { { "points", heldOut.points },
              { "hidden", heldOut.hidden },
              { "dark", heldOut.dark },
              { "share", kBoundShare },
              { "confidence", kBoundConfidence },
-             { "interpolationLux", heldOut.interpolationLux ? Json(*heldOut.interpolationLux) : Json() },
-             { "rmsLux", heldOut.rmsLux },
-             { "worstLux", heldOut.worstLux },
+             { keyOf(report, "interpolation"), heldOut.interpolationLux ? Json(*heldOut.interpolationLux) : Json() },
+             { keyOf(report, "rms"), heldOut.rmsLux },
+             { keyOf(report, "worst"), heldOut.worstLux },
              { "worstPlace", { heldOut.worstPlace.x, heldOut.worstPlace.y } } };
 }
 
-std::string sentenceOf(HeldOutReport const& heldOut) {
+std::string sentenceOfHeldOut(LightmapReport const& report) {
+    HeldOutReport const& heldOut = report.heldOut;
+    const char* const unit = unitOf(report);
     const std::string bound =
             heldOut.interpolationLux
                     ? fmt::format(
                               "At {:.0f} % of the lit surface (with a confidence of {:.0f} %) what the engine looks up "
-                              "is no further off than two standard errors of the chart and {:.4g} lux.",
-                              kBoundShare * 100, kBoundConfidence * 100, *heldOut.interpolationLux)
+                              "is no further off than two standard errors of the chart and {:.4g} {}.",
+                              kBoundShare * 100, kBoundConfidence * 100, *heldOut.interpolationLux, unit)
                     : std::string("They are too few to bound the error between texels.");
     return fmt::format("{} points of lit surfaces were traced for comparison alone. {} The root mean square of their "
-                       "errors is {:.4g} lux, the largest {:.4g} lux at texel {:.1f}, {:.1f}.",
-                       heldOut.points, bound, heldOut.rmsLux, heldOut.worstLux, heldOut.worstPlace.x,
+                       "errors is {:.4g} {}, the largest {:.4g} {} at texel {:.1f}, {:.1f}.",
+                       heldOut.points, bound, heldOut.rmsLux, unit, heldOut.worstLux, unit, heldOut.worstPlace.x,
                        heldOut.worstPlace.y);
 }
 
 std::string sentenceOf(BakeScene const& bake, LightmapImage const& image, LightmapReport const& report) {
     ChartSummary const& whole = report.whole;
     return fmt::format("{} charts with {} texels in {} x {} on {} {} with {} {}, {:.4g} texels a metre; {:.0f} samples "
-                       "a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of surfaces and were "
+                       "a texel, mean {:.4g} {}, standard error {:.2f} %. {} texels see backs of surfaces and were "
                        "filled from their neighbours.",
                        report.charts.size(), whole.texels, image.side, image.side, image.pages,
                        image.pages == 1 ? "page" : "pages", bake.atlas.levels,
                        bake.atlas.levels == 1 ? "level" : "levels", bake.atlas.texelsPerMeter, whole.samples,
-                       whole.meanLux, whole.relativeError * 100, whole.hidden);
-}
-
-Json storageToJson(Options const& options, StoredLightmap const& stored) {
-    return { { "format", kLightmapFormatNames[static_cast<size_t>(options.storage.format)] },
-             { "openness", options.storage.hasOpenness },
-             { "bytes", stored.bytes },
-             { "rmsLux", stored.error.rmsLux },
-             { "worstLux", stored.error.worstLux },
-             { "relativeError", stored.error.meanRelative },
-             { "opennessError", stored.error.opennessRms } };
+                       whole.meanLux, unitOf(report), whole.relativeError * 100, whole.hidden);
 }
 
 std::string sentenceOf(Options const& options, StoredLightmap const& stored, ChartSummary const& whole) {
@@ -168,14 +172,15 @@ std::string sentenceOf(Options const& options, StoredLightmap const& stored, Cha
 std::string pageOf(Options const& options, BakeScene const& bake, LightmapImage const& image,
                    StoredLightmap const& stored, LightmapReport const& report) {
     std::vector<ChartSummary> const& charts = report.charts;
-    std::string page = fmt::format("# Lightmap\n\n{}\n\n", sentenceOf(bake, image, report));
+    std::string page = fmt::format("# {}\n\n{}\n\n", titleOf(report), sentenceOf(bake, image, report));
     for (uint32_t i = 0; i < image.pages; ++i)
-        page += fmt::format("![lightmap]({}) ![standard error]({})\n\n", pictureName("lightmap", i),
+        page += fmt::format("![{}]({}) ![standard error]({})\n\n", titleOf(report), pictureName(fileStemOf(report), i),
                             pictureName("error", i));
     page += tableOf(summarizePages(bake.atlas, bake.texels));
-    page += sentenceOf(options, stored, report.whole) + "\n\n" + sentenceOf(report.heldOut) + "\n\n";
+    if (report.isLight) page += sentenceOf(options, stored, report.whole) + "\n\n";
+    page += sentenceOfHeldOut(report) + "\n\n";
     page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
-            "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
+            "| node | texels | hidden | samples | mean | error |\n|---|---:|---:|---:|---:|---:|\n";
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < charts.size(); ++i) order.push_back(i);
     std::ranges::stable_sort(order,
@@ -188,6 +193,23 @@ std::string pageOf(Options const& options, BakeScene const& bake, LightmapImage 
 }
 
 } // namespace
+
+const char* titleOf(LightmapReport const& report) { return report.isLight ? "Lightmap" : "Ambient occlusion"; }
+
+std::string pictureName(const char* stem, uint32_t page) {
+    return page == 0 ? fmt::format("{}.png", stem) : fmt::format("{}-{}.png", stem, page);
+}
+
+Result<void> writePictures(Options const& options, const char* stem, LightmapImage const& image,
+                           std::vector<std::byte> const& pixels) {
+    const size_t bytes = size_t(image.side) * image.side * 4;
+    for (uint32_t page = 0; page < image.pages; ++page) {
+        const auto part = std::span(pixels).subspan(page * bytes, bytes);
+        if (auto done = assets::writePng(options.out / pictureName(stem, page), image.side, image.side, part); !done)
+            return done;
+    }
+    return {};
+}
 
 std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTexel> texels,
                                     std::span<const TexelLight> lights) {
@@ -227,9 +249,21 @@ std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const Texel
     return pixels;
 }
 
-LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> lights, LightmapImage const& image,
-                        StoredLightmap const& stored) {
-    LightmapReport report{ .charts = summarize(bake.atlas, bake.texels, lights), .whole = {}, .heldOut = {} };
+std::vector<std::byte> greysOf(LightmapImage const& visible) {
+    std::vector<std::byte> pixels;
+    for (double4 const& texel : visible.texels) {
+        pixels.insert(pixels.end(), 3, static_cast<std::byte>(std::lround(texel.x * 255)));
+        pixels.push_back(std::byte{ 255 });
+    }
+    return pixels;
+}
+
+LightmapReport reportOf(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+                        LightmapImage const& image, StoredLightmap const& stored) {
+    LightmapReport report{ .isLight = !options.light.occlusionMeters,
+                           .charts = summarize(bake.atlas, bake.texels, lights),
+                           .whole = {},
+                           .heldOut = {} };
     report.whole = wholeOf(report.charts);
     std::vector<double> errors;
     for (ChartSummary const& chart : report.charts) errors.push_back(chart.errorLux());
@@ -240,39 +274,41 @@ LightmapReport reportOf(BakeScene const& bake, std::span<const TexelLight> light
 
 std::string summaryOf(Options const& options, BakeScene const& bake, LightmapImage const& image,
                       StoredLightmap const& stored, LightmapReport const& report) {
-    return sentenceOf(bake, image, report) + "\n" + sentenceOf(options, stored, report.whole) + "\n" +
-           sentenceOf(report.heldOut);
+    const std::string storage = report.isLight ? sentenceOf(options, stored, report.whole) + "\n" : std::string();
+    return sentenceOf(bake, image, report) + "\n" + storage + sentenceOfHeldOut(report);
 }
 
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                          LightmapImage const& image, StoredLightmap const& stored) {
-    const LightmapReport numbers = reportOf(bake, lights, image, stored);
+    const LightmapReport numbers = reportOf(options, bake, lights, image, stored);
     ChartSummary const& whole = numbers.whole;
     uint64_t rays = 0;
     for (TexelLight const& light : lights) rays += light.rays;
-    const Json report{ { "model", options.model.filename().string() },
-                       { "side", image.side },
-                       { "levels", bake.atlas.levels },
-                       { "pages", pagesToJson(summarizePages(bake.atlas, bake.texels)) },
-                       { "texelsPerMeter", bake.atlas.texelsPerMeter },
-                       { "texCoord", bake.model.uvSet },
-                       { "intensityLux", image.intensity },
-                       { "directLight", options.light.directLight },
-                       { "texels", whole.texels },
-                       { "hidden", whole.hidden },
-                       { "filled", image.filled },
-                       { "samples", whole.samples },
-                       { "meanLux", whole.meanLux },
-                       { "relativeError", whole.relativeError },
-                       { "storage", storageToJson(options, stored) },
-                       { "heldOut", heldOutToJson(numbers.heldOut) },
-                       { "rays", rays },
-                       { "warnings", bake.warnings },
-                       { "charts", chartsToJson(bake, numbers.charts) } };
+    Json report{ { "model", options.model.filename().string() },
+                 { "side", image.side },
+                 { "levels", bake.atlas.levels },
+                 { "pages", pagesToJson(summarizePages(bake.atlas, bake.texels)) },
+                 { "texelsPerMeter", bake.atlas.texelsPerMeter },
+                 { "texCoord", bake.model.uvSet },
+                 { "texels", whole.texels },
+                 { "hidden", whole.hidden },
+                 { "filled", image.filled },
+                 { "samples", whole.samples },
+                 { keyOf(numbers, "mean"), whole.meanLux },
+                 { "relativeError", whole.relativeError },
+                 { "heldOut", heldOutToJson(numbers) },
+                 { "rays", rays },
+                 { "warnings", bake.warnings },
+                 { "charts", chartsToJson(bake, numbers) } };
+    addSettings(options, image, stored, report);
     if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
     const std::string page = pageOf(options, bake, image, stored, numbers);
     if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
-    if (auto done = writePictures(options, "lightmap", image, previewOf(image)); !done) return done;
+    if (numbers.isLight) {
+        if (auto done = writePictures(options, fileStemOf(numbers), image, previewOf(image)); !done) return done;
+    } else if (options.occlusionOfVertices) { // that of textures is in the model, too: main.cpp
+        if (auto done = writePictures(options, fileStemOf(numbers), image, greysOf(image)); !done) return done;
+    }
     return writePictures(options, "error", image, errorPicture(bake, lights, whole.meanLux));
 }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <variant>
 
 namespace filament_core::bake {
 namespace {
@@ -20,10 +21,12 @@ using tools::Json;
 constexpr int kFloat = 5126, kUint = 5125, kArrayBuffer = 34962, kElementBuffer = 34963, kBilinear = 9729,
               kTrilinear = 9987;
 
+using WrittenEntry = std::variant<LightmapEntry const*, OcclusionEntry const*>;
+
 class Writer {
 public:
-    Writer(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light)
-            : mModel(model), mAtlas(atlas), mLight(light) {}
+    Writer(BakeModel const& model, Atlas const& atlas, WrittenEntry entry)
+            : mModel(model), mAtlas(atlas), mEntry(entry) {}
 
     Result<std::vector<std::byte>> write() {
         const Result<assets::GltfContainer> container = assets::openGltfContainer(mModel.file);
@@ -43,7 +46,10 @@ public:
         addMeshes();
         addToMaterials(texture);
         Json& used = mRoot["extensionsUsed"];
-        if (std::ranges::find(used, Json(kLightmapExtension)) == used.end()) used.push_back(kLightmapExtension);
+        const char* const extension = lightmap() ? kLightmapExtension : kBentNormalExtension;
+        const bool isNamed = lightmap() || occlusion()->hasBentNormals;
+        if (isNamed && std::ranges::find(used, Json(extension)) == used.end()) used.push_back(extension);
+        if (used.empty()) mRoot.erase("extensionsUsed");
         for (const char* list : { "images", "materials", "samplers", "textures", "meshes" }) {
             if (mRoot[list].empty()) mRoot.erase(list);
         }
@@ -127,6 +133,15 @@ private:
         return begins("ftyp", 4) ? "image/avif" : "image/jpeg";
     }
 
+    LightmapEntry const* lightmap() const {
+        LightmapEntry const* const* entry = std::get_if<LightmapEntry const*>(&mEntry);
+        return entry ? *entry : nullptr;
+    }
+    OcclusionEntry const* occlusion() const {
+        OcclusionEntry const* const* entry = std::get_if<OcclusionEntry const*>(&mEntry);
+        return entry ? *entry : nullptr;
+    }
+
     /// One for each page; returns the first.
     uint32_t addTextures() {
         mRoot["samplers"].push_back({ { "magFilter", 9729 },
@@ -134,21 +149,35 @@ private:
                                       { "wrapS", 33071 },
                                       { "wrapT", 33071 } });
         const auto first = static_cast<uint32_t>(mRoot["textures"].size());
-        for (size_t page = 0; page < mLight.pages.size(); ++page) {
-            const std::string name = page == 0 ? std::string("lightmap") : fmt::format("lightmap {}", page);
-            mRoot["images"].push_back(
-                    { { "name", name }, { "bufferView", addView(mLight.pages[page]) }, { "mimeType", "image/ktx2" } });
-            Json source{ { "source", mRoot["images"].size() - 1 } };
-            if (!mLight.openness.empty()) {
-                mRoot["images"].push_back({ { "name", name + " openness" },
-                                            { "bufferView", addView(mLight.openness[page]) },
-                                            { "mimeType", "image/ktx2" } });
-                source["openness"] = mRoot["images"].size() - 1;
-            }
-            mRoot["textures"].push_back({ { "sampler", mRoot["samplers"].size() - 1 },
-                                          { "extensions", { { kLightmapExtension, source } } } });
+        const size_t count = lightmap() ? lightmap()->pages.size() : occlusion()->pages.size();
+        for (size_t page = 0; page < count; ++page) {
+            Json texture = lightmap() ? lightmapTexture(page) : occlusionTexture(page);
+            texture["sampler"] = mRoot["samplers"].size() - 1;
+            mRoot["textures"].push_back(std::move(texture));
         }
         return first;
+    }
+
+    Json lightmapTexture(size_t page) {
+        LightmapEntry const& light = *lightmap();
+        const std::string name = nameOf("lightmap", page);
+        Json source{ { "source", addImage(name, light.pages[page], "image/ktx2") } };
+        if (!light.openness.empty())
+            source["openness"] = addImage(name + " openness", light.openness[page], "image/ktx2");
+        return { { "extensions", { { kLightmapExtension, source } } } };
+    }
+
+    Json occlusionTexture(size_t page) {
+        return { { "source", addImage(nameOf("occlusion", page), occlusion()->pages[page], "image/png") } };
+    }
+
+    static std::string nameOf(const char* stem, size_t page) {
+        return page == 0 ? std::string(stem) : fmt::format("{} {}", stem, page);
+    }
+
+    size_t addImage(std::string const& name, std::vector<std::byte> const& file, const char* mimeType) {
+        mRoot["images"].push_back({ { "name", name }, { "bufferView", addView(file) }, { "mimeType", mimeType } });
+        return mRoot["images"].size() - 1;
     }
 
     /// Values of the new vertices, `components` floats each.
@@ -218,12 +247,26 @@ private:
             attributes[name] = addAttribute(surface, geometry.uvs[i]);
         }
         attributes[fmt::format("TEXCOORD_{}", mModel.uvSet)] = addValues(surface.uvs);
+        if (occlusion() && !occlusion()->vertices.empty()) addOcclusion(source, surface, attributes);
         primitive["attributes"] = std::move(attributes);
         primitive["indices"] = addIndices(surface.indices);
         if (primitive.contains("extensions")) {
             primitive["extensions"].erase("KHR_draco_mesh_compression");
             if (primitive["extensions"].empty()) primitive.erase("extensions");
         }
+    }
+
+    void addOcclusion(BakeModel::Source const& source, AtlasSurface const& surface, Json& attributes) {
+        std::vector<glm::vec<1, float>> visible;
+        std::vector<float3> directions;
+        for (double4 const& value : occlusion()->vertices[source.surface]) {
+            visible.emplace_back(static_cast<float>(value.x));
+            const double3 direction = source.meshFromWorld * double3(value.y, value.z, value.w);
+            const double length = glm::length(direction);
+            directions.emplace_back(length > 0 ? direction / length : double3(0.0)); // nothing is open
+        }
+        attributes["_OCCLUSION"] = addAttribute(surface, visible);
+        attributes["_BENT_NORMAL"] = addAttribute(surface, directions);
     }
 
     /// In the winding of the file: surfaces of mirrored nodes were turned.
@@ -267,11 +310,15 @@ private:
             const auto [entry, isNew] = lit.try_emplace({ material, page }, 0);
             if (!isNew) return entry->second;
             Json copy = material == kNone ? Json::object() : mRoot["materials"][material];
-            copy["extensions"][kLightmapExtension] = {
-                { "lightmapTexture", { { "index", firstTexture + page }, { "texCoord", mModel.uvSet } } },
-                { "intensity", mLight.intensity },
-                { "directLight", mLight.hasDirectLight }
-            };
+            const Json map{ { "index", firstTexture + page }, { "texCoord", mModel.uvSet } };
+            if (LightmapEntry const* const light = lightmap()) {
+                copy["extensions"][kLightmapExtension] = { { "lightmapTexture", map },
+                                                           { "intensity", light->intensity },
+                                                           { "directLight", light->hasDirectLight } };
+            } else {
+                copy["occlusionTexture"] = map;
+                if (occlusion()->hasBentNormals) copy["extensions"][kBentNormalExtension] = Json::object();
+            }
             mRoot["materials"].push_back(std::move(copy));
             return entry->second = static_cast<uint32_t>(mRoot["materials"].size() - 1);
         };
@@ -308,7 +355,7 @@ private:
 
     BakeModel const& mModel;
     Atlas const& mAtlas;
-    LightmapEntry const& mLight;
+    const WrittenEntry mEntry;
     assets::GltfContainer mContainer;
     Json mRoot;
     std::vector<std::byte> mBinary;
@@ -318,7 +365,12 @@ private:
 } // namespace
 
 Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light) {
-    return Writer(model, atlas, light).write();
+    return Writer(model, atlas, &light).write();
+}
+
+Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas,
+                                               OcclusionEntry const& occlusion) {
+    return Writer(model, atlas, &occlusion).write();
 }
 
 } // namespace filament_core::bake

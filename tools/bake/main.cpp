@@ -3,12 +3,15 @@
 // as irradiance grids.
 // Exit status 0: baked and written. 130: stopped by Ctrl-C; the same command continues.
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/program/Program.h"
 #include "tools/bake/BakeScene.h"
 #include "tools/bake/GridProgram.h"
 #include "tools/bake/GridTrace.h"
 #include "tools/bake/Journal.h"
+#include "tools/bake/OcclusionImage.h"
 #include "tools/bake/Report.h"
+#include "tools/bake/VertexFit.h"
 #include "tools/bake/page/BakePage.h"
 #include "tools/reference/TracedScene.h"
 
@@ -91,11 +94,13 @@ int finishedPart(Options const& options, RecordRange range, size_t all) {
     return 0;
 }
 
-/// The model whose lightmap shows its charts, at about the brightness of the light.
+/// The model whose lightmap shows its charts, at about the brightness of the light; of occlusion, that below an even
+/// environment.
 Result<void> writeCharts(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                          jobs::JobSystem& jobs) {
     double lux = 0;
     for (TexelLight const& light : lights) lux += luminanceOf(light.irradiance) / double(lights.size());
+    if (options.light.occlusionMeters) lux *= double(options.iblIntensity.value);
     const LightmapImage image = makeChartImage(bake.atlas, lux > 0 ? lux : 1);
     StoredLightmap stored = storeLightmap(image, {}, {}, { .hasOpenness = false }, jobs);
     const LightmapEntry entry{ std::move(stored.pages), {}, image.intensity, options.light.directLight };
@@ -103,17 +108,85 @@ Result<void> writeCharts(Options const& options, BakeScene const& bake, std::spa
     return file ? assets::replaceFile(options.out / "charts.glb", *file) : file.error();
 }
 
-int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
-                  jobs::JobSystem& jobs) {
-    const auto texels = lights.first(bake.texels.size());
-    const LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
+/// The model with the lightmap, or with ambient occlusion, and the image that reports judge.
+struct BakedModel {
+    std::vector<std::byte> file;
+    LightmapImage image;
+    StoredLightmap stored; ///< of occlusion `read` alone
+};
+
+Result<BakedModel> bakedModel(BakeScene const& bake, Atlas const& atlas, OcclusionEntry const& entry,
+                              LightmapImage visible) {
+    Result<std::vector<std::byte>> file = writeBakedModel(bake.model, atlas, entry);
+    if (!file) return file.error();
+    StoredLightmap stored{ .read = halvesOf(visible) };
+    return BakedModel{ std::move(*file), std::move(visible), std::move(stored) };
+}
+
+Result<BakedModel> occludedVertices(Options const& options, BakeScene const& bake, std::span<const TexelLight> texels) {
+    std::vector<BakeSurface> const& surfaces = bake.model.surfaces;
+    const std::vector<std::byte> ramp = rampTexels();
+    const std::filesystem::path path = options.out / "ramp.png";
+    const auto width = static_cast<uint32_t>(ramp.size() / 4);
+    if (auto done = assets::writePng(path, width, 1, ramp); !done) return done.error();
+    Result<std::vector<std::byte>> png = assets::readFileBytes(path);
+    if (!png) return png.error();
+    OcclusionEntry entry{ .pages = { std::move(*png) }, .hasBentNormals = false };
+    entry.vertices = fitVertices(surfaces, bake.atlas, bake.texels, texels);
+    return bakedModel(bake, rampAtlas(entry.vertices, surfaces), entry,
+                      visibleOf(entry.vertices, surfaces, bake.atlas, bake.texels, texels));
+}
+
+Result<BakedModel> occludedTexels(Options const& options, BakeScene const& bake, std::span<const TexelLight> texels) {
+    OcclusionImage occlusion = makeOcclusionImage(bake.model.surfaces, bake.atlas, bake.texels, texels);
+    // They stay in the folder for people to see.
+    if (auto done = writePictures(options, "occlusion", occlusion.visible, occlusion.rgba8); !done) return done.error();
+    OcclusionEntry entry;
+    for (uint32_t page = 0; page < bake.atlas.pages; ++page) {
+        Result<std::vector<std::byte>> png = assets::readFileBytes(options.out / pictureName("occlusion", page));
+        if (!png) return png.error();
+        entry.pages.push_back(std::move(*png));
+    }
+    return bakedModel(bake, bake.atlas, entry, std::move(occlusion.visible));
+}
+
+Result<BakedModel> litTexels(Options const& options, BakeScene const& bake, std::span<const TexelLight> texels,
+                             jobs::JobSystem& jobs) {
+    LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
     StoredLightmap stored = storeLightmap(image, bake.texels, texels, options.storage, jobs);
     const LightmapEntry entry{ std::move(stored.pages), std::move(stored.openness), image.intensity,
                                options.light.directLight };
-    const Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
-    if (!file) return failed(file.error());
+    Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
+    if (!file) return file.error();
+    return BakedModel{ std::move(*file), std::move(image), std::move(stored) };
+}
+
+void warn(Options const& options, BakeScene const& bake, std::span<const TexelLight> texels) {
+    for (std::string const& warning : bake.warnings) tools::printWarning(warning);
+    const bool isDark =
+            std::ranges::all_of(texels, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
+    if (texels.empty())
+        tools::printWarning(
+                "no triangle has an area in the lightmap; give a larger --density, or a model with surfaces");
+    else if (isDark && !options.light.occlusionMeters)
+        tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
+    const bool hasOcclusion = std::ranges::any_of(bake.model.document->materials, [](assets::GltfMaterial const& one) {
+        return one.occlusion.texture != assets::kNone;
+    });
+    if (hasOcclusion && options.light.occlusionMeters)
+        tools::printWarning("baked surfaces lose the occlusion textures that the model has");
+}
+
+int writeBake(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+              jobs::JobSystem& jobs) {
+    const auto texels = lights.first(bake.texels.size());
+    const Result<BakedModel> baked = options.occlusionOfVertices     ? occludedVertices(options, bake, texels)
+                                     : options.light.occlusionMeters ? occludedTexels(options, bake, texels)
+                                                                     : litTexels(options, bake, texels, jobs);
+    if (!baked) return failed(baked.error());
+    const auto& [file, image, stored] = *baked;
     const std::filesystem::path path = options.out / "baked.glb";
-    if (auto done = assets::replaceFile(path, *file); !done) return failed(done.error());
+    if (auto done = assets::replaceFile(path, file); !done) return failed(done.error());
     if (options.showsCharts) {
         if (auto done = writeCharts(options, bake, texels, jobs); !done) return failed(done.error());
     }
@@ -122,14 +195,7 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
         if (auto done = writeLightmapPage(options, bake, lights, image, stored, path, jobs); !done)
             return failed(done.error());
     }
-    for (std::string const& warning : bake.warnings) tools::printWarning(warning);
-    const bool isDark =
-            std::ranges::all_of(texels, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
-    if (texels.empty())
-        tools::printWarning(
-                "no triangle has an area in the lightmap; give a larger --density, or a model with surfaces");
-    else if (isDark)
-        tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
+    warn(options, bake, texels);
     const std::string pages = image.pages == 1 ? std::string() : fmt::format(" on {} pages", image.pages);
     std::printf("%s: %zu texels of %zu charts in %u x %u%s\n", path.c_str(), bake.texels.size(),
                 bake.atlas.charts.size(), image.side, image.side, pages.c_str());
@@ -144,7 +210,7 @@ int bakeLightmap(Options const& options, jobs::JobSystem& jobs) {
     const size_t all = bake->traced();
     if (!options.merge.empty()) {
         const auto records = mergeJournals(options.merge, { bake->hash, { 0, all }, sizeof(TexelLight) });
-        return records ? writeLightmap(options, *bake, valuesOf<TexelLight>(*records), jobs) : failed(records.error());
+        return records ? writeBake(options, *bake, valuesOf<TexelLight>(*records), jobs) : failed(records.error());
     }
     const tools::StopOnInterrupt scope;
     const tools::Shard shard = options.shard.value_or(tools::Shard{});
@@ -153,7 +219,7 @@ int bakeLightmap(Options const& options, jobs::JobSystem& jobs) {
     if (!journal) return failed(journal.error());
     if (!journal->isComplete()) return interrupted(options);
     if (options.shard) return finishedPart(options, range, all);
-    const int status = writeLightmap(options, *bake, valuesOf<TexelLight>(journal->records()), jobs);
+    const int status = writeBake(options, *bake, valuesOf<TexelLight>(journal->records()), jobs);
     std::error_code ignored;
     if (status == 0) std::filesystem::remove(options.out / kJournalName, ignored);
     return status;

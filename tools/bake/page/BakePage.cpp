@@ -60,7 +60,7 @@ std::vector<uint32_t> orderBy(std::vector<double> const& keys) {
     return order;
 }
 
-// ---- lightmaps
+// ---- lightmaps and occlusion
 
 std::vector<WeightedPoint> pointsOf(BakeScene const& bake, std::span<const TexelLight> lights) {
     std::vector<WeightedPoint> points;
@@ -213,19 +213,20 @@ std::vector<std::string> linesOf(std::string const& text) {
 Result<void> writeLightmapPage(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                                LightmapImage const& image, StoredLightmap const& stored,
                                std::filesystem::path const& model, jobs::JobSystem& jobs) {
-    const LightmapReport report = reportOf(bake, lights, image, stored);
+    const LightmapReport report = reportOf(options, bake, lights, image, stored);
     const Camera camera = reportCamera(options.report, options.light.exposure, *bake.scene, pointsOf(bake, lights));
     Result<PageSection> view = viewSection(options, camera, *bake.scene, { .model = model, .grid = {} }, jobs);
     if (!view) return view.error();
     const uint2 size(image.side, image.side * image.pages); // pages below each other
-    PageSection maps{ .title = "Lightmap", .sentences = linesOf(summaryOf(options, bake, image, stored, report)) };
+    PageSection maps{ .title = titleOf(report), .sentences = linesOf(summaryOf(options, bake, image, stored, report)) };
     for (std::string const& warning : bake.warnings) maps.sentences.push_back("Warning: " + warning);
-    maps.pictures = { { "Light: the mean is a middle grey", imageOf(size, previewOf(image)), true },
+    maps.pictures = { { report.isLight ? "Light: the mean is a middle grey" : "The visible part of the hemisphere",
+                        imageOf(size, report.isLight ? previewOf(image) : greysOf(image)), true },
                       { "Standard error: white is a tenth of the mean",
                         imageOf(size, errorPicture(bake, lights, report.whole.meanLux)), true } };
     maps.tables.push_back(chartTable(bake, report.charts));
-    return writePage(options.report.file,
-                     { "Lightmap of " + options.model.filename().string(), { std::move(*view), std::move(maps) } });
+    return writePage(options.report.file, { maps.title + " of " + options.model.filename().string(),
+                                            { std::move(*view), std::move(maps) } });
 }
 
 Result<void> writeGridPage(Options const& options, reference::TracedScene const& scene, BakedGrid const& baked,

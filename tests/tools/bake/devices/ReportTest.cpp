@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The HTML report of filament-bake: everything that the bake measured is on the page, and its images are in it.
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tests/tools/bake/BakeRun.h"
 #include "toolkit/interiors/Interiors.h"
 
@@ -69,6 +70,24 @@ TEST_F(BakeReport, ListsEveryProbeAndEveryLeakOfAGrid) {
     EXPECT_GE(probes, 8u);
     EXPECT_EQ(leaks, numberAfter("\"found\": "));
     EXPECT_GT(errorOf(html, "Before"), 0);
+}
+
+// A box that a sky lights through its open front: what is deep inside sees little of it.
+TEST_F(BakeReport, ShowsThatOcclusionIsNearerToThePathTracer) {
+    write("cornell.glb", interiors::cornellBox(0).model);
+    assets::HdrImage sky{ .width = 8, .height = 4 };
+    for (uint32_t i = 0; i < 32; ++i) sky.pixels.push_back(i < 16 ? float3(0.5f, 0.6f, 0.9f) : float3(0.15f));
+    ASSERT_TRUE(assets::writeHdr(mFolder / "sky.hdr", sky));
+    for (const char* kind : { "texture", "vertex" }) {
+        const std::string html =
+                pageOf(std::string("--environment sky.hdr --density 6 --samples 64 --eye 0 1 4 --at 0 1 0 "
+                                   "--fov 38 --occlusion ") +
+                       kind);
+        EXPECT_THAT(html, HasSubstr("<h1>Ambient occlusion of cornell.glb</h1>"));
+        const double before = errorOf(html, "Before"), after = errorOf(html, "After");
+        ASSERT_GT(after, 0);
+        EXPECT_LT(after * (kind == std::string("texture") ? 3 : 2), before) << kind << ": " << after;
+    }
 }
 
 TEST_F(BakeReport, IsWrittenWithoutADevice) {
