@@ -54,7 +54,7 @@ public:
             readNode(node);
         }
         for (auto const& [reason, node] : mSkipped)
-            mModel.warnings.push_back(fmt::format("node '{}' gets no lightmap: {}", node, reason));
+            mModel.warnings.push_back(fmt::format("node '{}' is not baked: {}", node, reason));
     }
 
 private:
