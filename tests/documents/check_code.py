@@ -19,7 +19,7 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^```([\w-]*)[^\n]*\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-KNOWN = {"", "cpp", "material", "json", "sh", "cmake", "python"}
+KNOWN = {"", "c", "cpp", "material", "json", "sh", "cmake", "python"}
 
 
 def blocks(root):
@@ -59,6 +59,18 @@ def check_cpp(options, examples, folder):
     done = run([options.compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wno-unused", "-Wno-unused-result", "-Werror",
                 "-Wno-missing-field-initializers", *includes, str(file)])
     return [done.stderr] if done.returncode else []
+
+
+def check_c(options, name, line, text, folder):
+    """Over the C interface, as the body of a function."""
+    lines = text.split("\n")
+    includes = "\n".join(each for each in lines if each.startswith("#include"))
+    body = "\n".join("" if each.startswith("#include") else each for each in lines)
+    file = folder / "example.c"
+    file.write_text(f'{includes}\n#include <stdio.h>\nint example(void) {{\n#line {line} "{name}"\n{body}\nreturn 0; }}\n', encoding="utf-8")
+    done = run(["cc", "-std=c11", "-fsyntax-only", "-Wall", "-Wextra", "-Wno-unused", "-Werror",
+                f"-I{options.root}/c_interface/include", str(file)])
+    return [f"{name}:{line}: {done.stderr.strip()}"] if done.returncode else []
 
 
 def check_material(options, name, line, text, folder):
@@ -103,6 +115,8 @@ def check(options, folder):
         count += 1
         if language == "cpp":
             cpp.append((name, line, text))
+        elif language == "c":
+            wrong += check_c(options, name, line, text, folder)
         elif language == "material":
             wrong += check_material(options, name, line, text, folder)
         elif language == "json":

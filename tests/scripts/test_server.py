@@ -278,10 +278,11 @@ def main():
         load(program, folder, options.requests, options.clients)
     with tempfile.TemporaryDirectory() as folder: # two servers cannot have one folder
         server = Server(program, folder)
-        second = subprocess.run([program, "--spool", folder, "--port", "0"], capture_output=True, text=True)
+        second = subprocess.run([program, "--spool", folder, "--port", "0"], capture_output=True, text=True, timeout=60)
         assert second.returncode == 1 and "another server has this folder" in second.stderr, second
-        busy = subprocess.run([program, "--spool", folder + "/b", "--port", str(server.port)], capture_output=True, text=True)
-        assert busy.returncode == 1 and "give another --port" in busy.stderr, busy
+        busy = subprocess.run([program, "--spool", folder + "/b", "--port", str(server.port)], capture_output=True, text=True,
+                              timeout=60)
+        assert busy.returncode == 1 and "another --port" in busy.stderr, busy
         assert server.end() == 0
 
 

@@ -90,6 +90,11 @@ HttpServer::HttpServer(RenderService& service, HttpSettings settings)
     server.set_read_timeout(kIdleSeconds);
     server.set_write_timeout(kIdleSeconds);
     server.set_tcp_nodelay(true);
+    // Not the library's SO_REUSEPORT: a second server would share the port, and answer half of the requests.
+    server.set_socket_options([](socket_t socket) {
+        const int on = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    });
     mImpl->addRoutes();
 }
 
