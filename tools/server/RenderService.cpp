@@ -71,9 +71,10 @@ Answer RenderService::accept(std::string_view request, bool& isNamed) {
 Answer RenderService::submit(std::string_view request) {
     bool isNamed = false;
     const Answer accepted = accept(request, isNamed);
-    return accepted.id.empty()              ? accepted
-           : job(accepted.id).status == 200 ? Answer{ .status = 202, .body = job(accepted.id).body, .id = accepted.id }
-                                            : job(accepted.id);
+    if (accepted.id.empty()) return accepted;
+    Answer answer = job(accepted.id);
+    if (answer.status == 200) answer.status = 202;
+    return answer;
 }
 
 Answer RenderService::render(std::string_view request) {
