@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What passes of the app read: inputs of the frame, textures and values of the app, their own history; and the errors
-// of those that cannot be drawn.
+// of passes with wrong inputs or materials.
 #include "tests/filament_core/engine/postprocess/PassStage.h"
 
 #include <gmock/gmock.h>
