@@ -121,6 +121,17 @@ def answers(program, folder):
     assert server.end() == 0
 
 
+def hidden_paths(program, folder):
+    """Errors of the loaders, of models that are missing, do not name the server's folders."""
+    assets = pathlib.Path(folder, "assets")
+    assets.mkdir()
+    server = Server(program, folder + "/spool", "--workers", "1", "--assets", str(assets))
+    answer = server.request("POST", "/v1/render", {"scene": {"model": "asset:none.glb"}, "size": [8, 8]})
+    expect_error(answer, 400, "assets/none.glb")
+    assert folder.encode() not in answer[1], answer
+    assert server.end() == 0
+
+
 def pressure(program, folder):
     """A queue of two behind one worker that is stopped."""
     server = Server(program, folder, "--workers", "1", "--queue", "2", "--wait", "1")
@@ -271,7 +282,7 @@ def main():
     parser.add_argument("--clients", type=int, default=32)
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
-    for check in (answers, pressure, workers_end, killed, tools):
+    for check in (answers, hidden_paths, pressure, workers_end, killed, tools):
         with tempfile.TemporaryDirectory() as folder:
             check(program, folder)
     with tempfile.TemporaryDirectory() as folder:

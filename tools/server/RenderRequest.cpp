@@ -137,6 +137,18 @@ SceneBuildOptions buildOptions(RequestLimits const& limits, SceneFile const& sce
              } };
 }
 
+std::string withoutFolders(std::string message, RequestLimits const& limits) {
+    for (auto const& [folder, word] : { std::pair(limits.assets, "assets"), std::pair(limits.scenes, "scenes") }) {
+        if (folder.empty()) continue;
+        std::error_code error;
+        for (std::string const& path : { fs::weakly_canonical(folder, error).string(), folder.string() }) {
+            for (size_t at = message.find(path); !path.empty() && at != std::string::npos; at = message.find(path, at))
+                message.replace(at, path.size(), word), at += std::string_view(word).size();
+        }
+    }
+    return message;
+}
+
 const char* contentType(ImageFormat format) { return format == ImageFormat::Png ? "image/png" : "image/x-exr"; }
 
 } // namespace filament_core::server

@@ -41,6 +41,9 @@ Result<RenderRequest> parseRequest(std::string_view json, RequestLimits const& l
 /// Lets files of the server's folders be found, and no others.
 SceneBuildOptions buildOptions(RequestLimits const& limits, SceneFile const& scene);
 
+/// An error for clients: paths below the server's folders begin with "assets" or "scenes".
+std::string withoutFolders(std::string message, RequestLimits const& limits);
+
 const char* contentType(ImageFormat format);
 
 } // namespace filament_core::server

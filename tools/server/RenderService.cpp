@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/server/RenderService.h"
 
+#include "base/Log.h"
 #include "toolkit/json/JsonFile.h"
 #include "tools/server/FolderWatch.h"
 
@@ -57,13 +58,17 @@ RenderService::RenderService(Spool spool, Workers const& workers, ServiceSetting
 Answer RenderService::accept(std::string_view request, bool& isNamed) {
     if (mWorkers.isBroken()) return errorAnswer(500, "this machine cannot draw: see the server's log");
     const Result<RenderRequest> parsed = parseRequest(request, mSettings.limits);
-    if (!parsed) return errorAnswer(400, parsed.error().message);
+    if (!parsed) return errorAnswer(400, withoutFolders(parsed.error().message, mSettings.limits));
     isNamed = !parsed->id.empty();
     const std::string id = isNamed ? parsed->id : Spool::makeName();
     if (++mAccepted % kTidyEvery == 0) mSpool.keepNewest(mSettings.keptOutcomes);
     const Result<Accepted> accepted = mSpool.accept(id, request);
-    if (!accepted)
-        return errorAnswer(accepted.error().code == ErrorCode::InvalidArgument ? 400 : 507, accepted.error().message);
+    if (!accepted && accepted.error().code == ErrorCode::InvalidArgument)
+        return errorAnswer(400, accepted.error().message);
+    if (!accepted) {
+        log(Severity::Error, "{}", accepted.error().message);
+        return errorAnswer(507, "the server cannot write the job: is its disk full?");
+    }
     if (*accepted == Accepted::Full) return errorAnswer(503, "the queue is full; try again later");
     return { .status = 202, .body = {}, .id = id };
 }
@@ -140,7 +145,7 @@ Answer RenderService::remove(std::string const& id) {
 Answer RenderService::check(std::string_view request) const {
     const Result<RenderRequest> parsed = parseRequest(request, mSettings.limits);
     return parsed ? Answer{ .status = 200, .body = "{\"valid\": true}\n", .id = {} }
-                  : errorAnswer(400, parsed.error().message);
+                  : errorAnswer(400, withoutFolders(parsed.error().message, mSettings.limits));
 }
 
 ServerState RenderService::state() const {

@@ -99,7 +99,7 @@ Result<void> RenderWorker::handle(ClaimedJob const& job) {
         outcome.contentType = contentType(request->format);
     } else {
         outcome.status = statusOf(drawn.error().code);
-        outcome.error = drawn.error().message;
+        outcome.error = withoutFolders(drawn.error().message, mLimits);
         if (outcome.status == 500 && request) mEngines.erase(request->api); // the next job has another one
     }
     outcome.renderSeconds = secondsSince(begin);

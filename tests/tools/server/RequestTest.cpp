@@ -107,6 +107,12 @@ TEST_F(ServerFolders, SentScenesNameAssetsAlone) {
     EXPECT_FALSE(found(*own, "../../secret.json"));
 }
 
+TEST_F(ServerFolders, ErrorsForClientsNameNoFolder) {
+    const std::string path = (fs::canonical(mFolder) / "assets/none.glb").string();
+    EXPECT_EQ(withoutFolders("no file '" + path + "', " + path, mLimits), "no file 'assets/none.glb', assets/none.glb");
+    EXPECT_EQ(withoutFolders("nothing", {}), "nothing");
+}
+
 TEST(Mcp, EncodesBytes) {
     EXPECT_EQ(base64(""), "");
     EXPECT_EQ(base64("f"), "Zg==");
