@@ -53,6 +53,7 @@ MaterialData materialOf(MeshFileMaterial const& material, ImageList& images) {
     data.emissive = images.textureOf(material.emissiveMap);
     data.normal = images.textureOf(material.normalMap);
     if (material.baseColor.w < 1) data.alphaMode = AlphaMode::Blend;
+    data.doubleSided = true; // none of these formats knows of culling, and their triangles face either way
     return data;
 }
 
@@ -70,8 +71,10 @@ Result<std::vector<std::byte>> glbOfMeshFile(std::span<const std::byte> file, Me
     GlbScene scene;
     ImageList images(scene, folder, diagnostics);
     for (MeshFileMaterial const& material : mesh->materials) scene.materials.push_back(materialOf(material, images));
-    // Formats without materials: dielectric and rough, as those of an .mtl without values.
-    if (mesh->materials.empty()) scene.materials.push_back(materialOf({}, images));
+    // Parts without a material: dielectric and rough, as those of an .mtl without values.
+    const auto plain = static_cast<uint32_t>(scene.materials.size());
+    if (std::ranges::find(mesh->parts, MeshFilePart::kNoMaterial, &MeshFilePart::material) != mesh->parts.end())
+        scene.materials.push_back(materialOf({}, images));
     for (MeshFilePart& part : mesh->parts) {
         GlbPrimitive primitive{ .positions = std::move(part.positions),
                                 .normals = std::move(part.normals),
@@ -79,8 +82,7 @@ Result<std::vector<std::byte>> glbOfMeshFile(std::span<const std::byte> file, Me
                                 .uvs = std::move(part.uvs),
                                 .indices = std::move(part.indices),
                                 .material = part.material };
-        if (primitive.material == MeshFilePart::kNoMaterial) primitive.material = kNone;
-        if (mesh->materials.empty()) primitive.material = 0;
+        if (primitive.material == MeshFilePart::kNoMaterial) primitive.material = plain;
         const auto index = static_cast<uint32_t>(scene.meshes.size());
         scene.nodes.push_back({ .name = part.name, .mesh = index });
         scene.meshes.push_back({ part.name, {} });
