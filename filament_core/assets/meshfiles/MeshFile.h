@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MeshFile: triangles and materials of a Wavefront .obj with its .mtl, a Stanford .ply or an .stl.
 ///   In      any bytes; the content is untrusted. The ending says what they are.
-///   OBJ     v (also with colours), vt, vn, f of any number of corners (fans), o, g, usemtl, mtllib. Lines, points,
-///           curves and smoothing groups are left out, with a warning.
+///   OBJ     v (also with colours), vt, vn, f of any number of corners (also concave), o, g, usemtl, mtllib. Lines,
+///           points, curves and smoothing groups are left out, with a warning.
 ///   MTL     Kd, Ke, Ns, d, Tr, Pr, Pm, map_Kd, map_Ke, norm. Other maps are left out, with a warning.
 ///   PLY     1.0 as text and in both byte orders: x y z, nx ny nz, u v (s t), red green blue alpha, and faces. Files
 ///           without faces are Unsupported: they are clouds of points.

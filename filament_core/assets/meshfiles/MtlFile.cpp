@@ -76,7 +76,6 @@ void readValue(std::string_view word, std::string_view line, MeshFileMaterial& m
         material.baseColor.w = 1 - numberOf(line, 1 - material.baseColor.w, 0, 1);
     } else if (word == "map_Kd") {
         material.baseColorMap = mapOf(line, diagnostics);
-        material.baseColor = float4(float3(1.0f), material.baseColor.w); // the map stands for the colour
     } else if (word == "map_Ke") {
         material.emissiveMap = mapOf(line, diagnostics);
         if (material.emissive == float3(0.0f)) material.emissive = float3(1.0f);
@@ -90,18 +89,25 @@ void readValue(std::string_view word, std::string_view line, MeshFileMaterial& m
 } // namespace
 
 void readMtl(std::string_view text, std::vector<MeshFileMaterial>& materials, Diagnostics& diagnostics) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const size_t before = materials.size();
     MeshFileMaterial* material = nullptr;
     while (!text.empty()) {
         std::string_view line = takeLine(text);
         line = line.substr(0, line.find('#'));
         const std::string_view word = takeWord(line);
         if (word == "newmtl") {
-            if (materials.size() == kMostMaterials) return diagnostics.warn("more than {} materials", kMostMaterials);
+            if (materials.size() == kMostMaterials) {
+                diagnostics.warn("more than {} materials", kMostMaterials);
+                break;
+            }
             material = &materials.emplace_back(MeshFileMaterial{ .name = std::string(trimmed(line)) });
         } else if (material) {
             readValue(word, line, *material, diagnostics);
         }
     }
+    for (MeshFileMaterial& read : std::span(materials).subspan(before)) // a map stands for the colour, before or after
+        if (!read.baseColorMap.empty()) read.baseColor = float4(float3(1.0f), read.baseColor.w);
 }
 
 } // namespace filament_core::assets

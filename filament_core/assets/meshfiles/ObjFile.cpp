@@ -2,6 +2,7 @@
 // Wavefront, "Object Files (.obj)", appendix B1 of the Advanced Visualizer's manual.
 #include "filament_core/assets/meshfiles/MeshFile.h"
 #include "filament_core/assets/meshfiles/MeshWords.h"
+#include "filament_core/assets/meshfiles/PolygonTriangles.h"
 
 #include <array>
 #include <map>
@@ -31,6 +32,9 @@ public:
     ObjReader(ReadNeighbour const& read, Diagnostics& diagnostics) : mRead(read), mDiagnostics(diagnostics) {}
 
     Result<MeshFile> read(std::string_view text) {
+        if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE"))
+            return fail(ErrorCode::Unsupported, "the text is UTF-16: save it as UTF-8");
+        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
         std::string joined;
         while (!text.empty() && mError.empty()) {
             ++mLine;
@@ -165,9 +169,11 @@ private:
         }
         Part* part = currentPart();
         if (!part) return;
-        for (size_t i = 2; i < mCorners.size(); ++i)
-            for (const size_t corner : { size_t{ 0 }, i - 1, i })
-                part->mesh.indices.push_back(vertexOf(*part, mCorners[corner]));
+        mCornerPositions.clear();
+        for (Corner const& corner : mCorners)
+            mCornerPositions.push_back(mPositions[static_cast<size_t>(corner.position)]);
+        for (std::array<uint32_t, 3> const& triangle : mTriangles.of(mCornerPositions))
+            for (const uint32_t corner : triangle) part->mesh.indices.push_back(vertexOf(*part, mCorners[corner]));
     }
 
     uint32_t vertexOf(Part& part, Corner const& corner) {
@@ -216,12 +222,24 @@ private:
         mMaterial = static_cast<uint32_t>(mFile.materials.size() - 1);
     }
 
-    void readMaterials(std::string_view name) {
-        const Result<std::vector<std::byte>> bytes =
-                mRead ? mRead(std::string(name))
-                      : Result<std::vector<std::byte>>(fail(ErrorCode::NotFound, "there are no files"));
-        if (!bytes) return mDiagnostics.warn("materials are not read: {}", bytes.error().message);
+    /// `names`: one file, whose name may have blanks, or several.
+    void readMaterials(std::string_view names) {
+        const Result<void> all = readMaterialFile(names);
+        if (all) return;
+        std::string_view rest = names;
+        if (takeWord(rest) == names) return mDiagnostics.warn("materials are not read: {}", all.error().message);
+        rest = names;
+        for (std::string_view name = takeWord(rest); !name.empty(); name = takeWord(rest))
+            if (const Result<void> one = readMaterialFile(name); !one)
+                mDiagnostics.warn("materials are not read: {}", one.error().message);
+    }
+
+    Result<void> readMaterialFile(std::string_view name) {
+        if (!mRead) return fail(ErrorCode::NotFound, "there are no files");
+        const Result<std::vector<std::byte>> bytes = mRead(std::string(name));
+        if (!bytes) return bytes.error();
         readMtl({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, mFile.materials, mDiagnostics);
+        return {};
     }
 
     void finish(Part& part) {
@@ -242,7 +260,9 @@ private:
     uint32_t mMaterial = MeshFilePart::kNoMaterial;
     std::vector<float3> mPositions, mNormals, mColors;
     std::vector<float2> mUvs;
-    std::vector<Corner> mCorners; ///< of a face
+    std::vector<Corner> mCorners;         ///< of a face
+    std::vector<float3> mCornerPositions; ///< of the same
+    PolygonTriangles mTriangles;
     size_t mLine = 0;
     std::string mError;
 };

@@ -104,6 +104,39 @@ TEST(ObjFile, SaysTheLineThatIsWrong) {
     EXPECT_EQ(refused(""), "there are no triangles in the file");
 }
 
+TEST(ObjFile, ReadsWhatOtherProgramsWrite) {
+    const auto read = [](std::string const& name) -> Result<std::vector<std::byte>> {
+        if (name != "a.mtl" && name != "b c.mtl") return fail(ErrorCode::NotFound, "no file '{}'", name);
+        const std::string text = std::string("\xEF\xBB\xBFnewmtl ") + name[0] + "\nmap_Kd wood.png\nKd 0 0 0\n";
+        return std::vector<std::byte>(bytesOf(text).begin(), bytesOf(text).end());
+    };
+    const auto materials = [&](std::string const& names) {
+        Diagnostics diagnostics;
+        const std::string text = "\xEF\xBB\xBFmtllib " + names + "\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n";
+        const Result<MeshFile> file = readMeshFile(bytesOf(text), MeshFormat::Obj, read, diagnostics);
+        EXPECT_TRUE(file.ok());
+        std::string found;
+        for (MeshFileMaterial const& material : file->materials) {
+            found += material.name + " ";
+            EXPECT_EQ(material.baseColor, float4(1.0f)) << "the map stands for the colour, in any order";
+        }
+        for (std::string const& warning : diagnostics.takeWarnings()) found += warning + " ";
+        return found;
+    };
+    EXPECT_EQ(materials("a.mtl"), "a ");
+    EXPECT_EQ(materials("b c.mtl"), "b ") << "a name with a blank";
+    EXPECT_EQ(materials("a.mtl d.mtl a.mtl"), "a a materials are not read: no file 'd.mtl' ");
+    EXPECT_EQ(refusal(std::string("\xFE\xFF\0v", 4), MeshFormat::Obj), "the text is UTF-16: save it as UTF-8");
+}
+
+TEST(ObjFile, ConcaveFacesAreFilledOnce) {
+    const Result<MeshFile> file =
+            readText("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 3 1 0\nf 1 2 3 4\nf 2 3 4 1\n", MeshFormat::Obj);
+    ASSERT_TRUE(file.ok());
+    // vertices are counted as triangles need them: an ear at the third corner comes first, then what is left
+    EXPECT_EQ(file->parts[0].indices, (std::vector<uint32_t>{ 0, 1, 2, 3, 0, 2, 0, 1, 2, 0, 2, 3 }));
+}
+
 std::string plyText() {
     return "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
            "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
@@ -203,6 +236,8 @@ TEST(MeshFile, PassesThroughTheLoaderOfGltfFiles) {
     ASSERT_TRUE(ply.ok()) << ply.error().message;
     EXPECT_EQ(ply->meshes.size(), 1u);
     EXPECT_EQ(ply->materials.at(0).metallicFactor, 0);
+    EXPECT_TRUE(ply->materials.at(0).doubleSided);
+    EXPECT_TRUE(obj->materials[0].doubleSided);
     EXPECT_EQ(loadGltf(folder / "broken.obj", jobs).error().message,
               "broken.obj: line 1: a position needs three numbers");
 }
