@@ -52,6 +52,10 @@ constexpr Contradiction kContradictions[] = {
       "makeLineQuads() of <filament_core/Lines.h>" },
     { [](MaterialDefinition const& d) { return d.wideLines && d.package.vertexDomain == VertexDomain::Device; },
       "wideLines", "wideLines needs positions in space; leave out vertexDomain : device" },
+    { [](MaterialDefinition const& d) { return d.sizedPoints && d.package.vertexDomain == VertexDomain::Device; },
+      "sizedPoints", "sizedPoints needs positions in space; leave out vertexDomain : device" },
+    { [](MaterialDefinition const& d) { return d.sizedPoints && d.wideLines; }, "sizedPoints",
+      "a mesh holds points or lines; leave out sizedPoints or wideLines" },
     { [](MaterialDefinition const& d) {
          return d.find("blendFunction") != nullptr && d.package.blending != Blending::Custom;
      },

@@ -109,6 +109,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, definition.flipUv, "FLIP_UV");
     defineIf(out, definition.fullScreenTriangle, "FULL_SCREEN_TRIANGLE");
     defineIf(out, definition.wideLines, "WIDE_LINES");
+    defineIf(out, definition.sizedPoints, "SIZED_POINTS");
     const bool isSwitched = package.findParameter(kDoubleSidedParameter) != nullptr;
     defineIf(out, isSwitched, "DOUBLE_SIDED_BY_PARAMETER");
     defineIf(out, package.doubleSided && !isSwitched, "DOUBLE_SIDED");

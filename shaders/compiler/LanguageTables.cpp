@@ -184,6 +184,7 @@ constexpr std::pair<std::string_view, std::string_view> kMeanings[] = {
     { "getEyeIndex", "0: a view has one eye" },
     { "getEyeFromViewMatrix", "the identity: a view has one eye" },
     { "getInstanceIndex", "the number of the instance, with `instanced : true`" },
+    { "getPointCorner", "with `sizedPoints : true`: the corner of the point, -1 or 1 each way, with y down" },
     { "getWorldFromModelMatrix", "from the space of the mesh to the world" },
     { "getWorldFromModelNormalMatrix", "the same for normals: not normalised, right for uneven scales and mirrors" },
     { "getUserWorldPosition", "in the user's world, in metres" },

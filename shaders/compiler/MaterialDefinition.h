@@ -69,6 +69,7 @@ struct MaterialDefinition {
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
     bool wideLines =
             false; ///< vertices are corners of segments, as makeLineQuads() (<filament_core/Lines.h>) gives them
+    bool sizedPoints = false; ///< vertices are corners of points, as makePointQuads() (<filament_core/Points.h>) says
     bool clearCoatIorChange = true;
     bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
     SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;

@@ -151,6 +151,8 @@ Result<void> checkVariableNames(MaterialDefinition const& definition, MaterialNe
         { "worldPosition", true },
         { "lineWidth", definition.wideLines },
         { "lineEnd", definition.wideLines },
+        { "pointPixels", definition.sizedPoints },
+        { "pointMeters", definition.sizedPoints },
     };
     for (Variable const& variable : definition.variables) {
         for (auto const& [name, isTaken] : taken) {

@@ -270,8 +270,8 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
     return {};
 }
 
-// In the order of the guide; domain, fullScreenTriangle, wideLines, halfPrecision and clothDistribution are additions
-// of this engine.
+// In the order of the guide; domain, fullScreenTriangle, wideLines, sizedPoints, halfPrecision and clothDistribution
+// are additions of this engine.
 constexpr std::array kProperties{
     StateProperty{ "name", "what messages and tools call it", readName, [] { return std::string("any text"); },
                    [](MaterialDefinition const& definition) { return definition.package.name; } },
@@ -295,6 +295,8 @@ constexpr std::array kProperties{
             "fullScreenTriangle", "one triangle over the view, without vertices; needs `vertexDomain : device`"),
     property<&MaterialDefinition::wideLines>(
             "wideLines", "the mesh holds corners of line segments, which are spread to `lineWidth` pixels"),
+    property<&MaterialDefinition::sizedPoints>(
+            "sizedPoints", "the mesh holds corners of points, which are spread to `pointPixels` or `pointMeters`"),
     property<&MaterialDefinition::halfPrecision>("halfPrecision",
                                                  "also compiles variants that are lit with 16-bit numbers"),
     property<&MaterialPackage::blending>("blending", "how the surface covers what is behind it"),

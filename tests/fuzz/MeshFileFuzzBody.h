@@ -24,7 +24,8 @@ inline void checkPart(MeshFilePart const& part, size_t materials) {
     FILAMENT_ASSERT(vertices > 0 && fits(part.normals) && fits(part.uvs) && fits(part.colors), "attributes are whole");
     FILAMENT_ASSERT(isFinite(part.positions) && isFinite(part.normals) && isFinite(part.colors) && isFinite(part.uvs),
                     "numbers are finite");
-    FILAMENT_ASSERT((part.indices.empty() ? vertices : part.indices.size()) % 3 == 0, "corners are triangles");
+    const size_t corners = part.indices.empty() ? vertices : part.indices.size();
+    FILAMENT_ASSERT(part.arePoints ? part.indices.empty() : corners % 3 == 0, "corners are triangles");
     FILAMENT_ASSERT(std::ranges::all_of(part.indices, [&](uint32_t i) { return i < vertices; }), "indices exist");
     FILAMENT_ASSERT(part.material == MeshFilePart::kNoMaterial || part.material < materials, "materials exist");
 }

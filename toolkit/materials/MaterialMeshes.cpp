@@ -4,6 +4,7 @@
 #include "filament_core/assets/geometry/TangentFrame.h"
 
 #include <filament_core/Lines.h>
+#include <filament_core/Points.h>
 
 #include <cmath>
 
@@ -123,6 +124,24 @@ void addLines(MaterialMesh& mesh, LineQuads const& quads) {
     for (const uint32_t index : quads.indices) mesh.indices.push_back(static_cast<uint16_t>(index));
 }
 
+/// A spiral that comes from afar, so that each turn is larger than the one before.
+void addPoints(MaterialMesh& mesh) {
+    constexpr int kPoints = 240;
+    std::vector<double3> points;
+    for (int i = 0; i < kPoints; ++i) {
+        const double t = (i + 0.5) / kPoints, angle = 2 * kPi * 7 * t, radius = 0.2 + 0.75 * t;
+        points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 2 * t - 1);
+    }
+    for (PointQuads const& quads : makePointQuads(points)) {
+        for (PointVertex const& corner : quads.vertices) {
+            const float3 place = float3(quads.center) + corner.position;
+            mesh.vertices.push_back(vertexOf({ place, { 0, 0, 1 }, { 1, 0, 0 } }, 0.5f + 0.5f * float2(place)));
+        }
+        const auto* indices = reinterpret_cast<const uint16_t*>(pointIndexBuffer().data.data());
+        mesh.indices.assign(indices, indices + quads.indexCount());
+    }
+}
+
 } // namespace
 
 std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
@@ -139,6 +158,8 @@ std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
         addBox(mesh, 0.7f);
     } else if (name == "lines") {
         addLines(mesh, starAndHelix());
+    } else if (name == "points") {
+        addPoints(mesh);
     } else if (name == "screen") { // row 0 is the top row: y grows downwards
         addGrid(mesh, 1, 1, [](float u, float v) {
             return SurfacePoint{ { 1.2f * u - 0.6f, 0.6f - 1.2f * v, 0.5f }, { 0, 0, 1 }, { 1, 0, 0 } };

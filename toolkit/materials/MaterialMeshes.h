@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialMeshes: meshes for showing materials. Every vertex has every attribute that a material may require.
 ///   Meshes  sphere, plane (facing +z), box, torus (around +z), scroll (a sheet rolled up around y), lines (corners
-///           of segments, <filament_core/Lines.h>), all within [-1, 1]^3; screen (clip space, the centre of the image,
-///           for vertexDomain device), billboard (view space, 3 m in front of the camera, for vertexDomain view).
+///           of segments, <filament_core/Lines.h>), points (corners of points, <filament_core/Points.h>), all within
+///           [-1, 1]^3; screen (clip space, the centre of the image, for vertexDomain device), billboard (view space,
+///           3 m in front of the camera, for vertexDomain view).
 ///   Uv      v points up, as materials with flipUV expect; uv1 is uv0 rotated by a right angle and doubled.
 ///   Colour  hues by uv. custom0: (uv, distance from the centre of the mesh, 1); custom1 to custom7: the number of the
 ///           attribute in every component. Lines: custom0 is that of LineVertex.

@@ -146,6 +146,7 @@ Json primitiveJson(GlbPrimitive const& primitive, BufferWriter& buffer) {
     if (!primitive.colors.empty()) attributes["COLOR_0"] = buffer.addVectors(primitive.colors, "VEC4");
     if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVectors(primitive.uvs, "VEC2");
     Json json{ { "attributes", std::move(attributes) } };
+    if (primitive.arePoints) json["mode"] = 0;
     if (!primitive.indices.empty()) json["indices"] = buffer.addIndices(primitive.indices, primitive.positions.size());
     if (primitive.material != kNone) json["material"] = primitive.material;
     return json;

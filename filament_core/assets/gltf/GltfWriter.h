@@ -42,6 +42,7 @@ struct GlbPrimitive {
     std::vector<float2> uvs = {};
     std::vector<uint32_t> indices = {}; ///< empty: vertices in order
     uint32_t material = kNone;
+    bool arePoints = false;
 };
 
 struct GlbMesh {

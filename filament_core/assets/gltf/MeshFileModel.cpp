@@ -81,10 +81,13 @@ Result<std::vector<std::byte>> glbOfMeshFile(std::span<const std::byte> file, Me
                                 .colors = std::move(part.colors),
                                 .uvs = std::move(part.uvs),
                                 .indices = std::move(part.indices),
-                                .material = part.material };
+                                .material = part.material,
+                                .arePoints = part.arePoints };
         if (primitive.material == MeshFilePart::kNoMaterial) primitive.material = plain;
         const auto index = static_cast<uint32_t>(scene.meshes.size());
-        scene.nodes.push_back({ .name = part.name, .mesh = index });
+        double4x4 place(1.0);
+        place[3] = double4(part.origin, 1);
+        scene.nodes.push_back({ .name = part.name, .parentFromNode = place, .mesh = index });
         scene.meshes.push_back({ part.name, {} });
         scene.meshes.back().primitives.push_back(std::move(primitive));
     }

@@ -4,8 +4,8 @@
 ///   OBJ     v (also with colours), vt, vn, f of any number of corners (also concave), o, g, usemtl, mtllib. Lines,
 ///           points, curves and smoothing groups are left out, with a warning.
 ///   MTL     Kd, Ke, Ns, d, Tr, Pr, Pm, map_Kd, map_Ke, norm. Other maps are left out, with a warning.
-///   PLY     1.0 as text and in both byte orders: x y z, nx ny nz, u v (s t), red green blue alpha, and faces. Files
-///           without faces are Unsupported: they are clouds of points.
+///   PLY     1.0 as text and in both byte orders: x y z, nx ny nz, u v (s t), red green blue alpha, and faces. Without
+///           faces the vertices are points.
 ///   STL     text and binary. Normals are those of the triangles, not those of the file.
 ///   Out     as the file has it: units and axes are not converted. Texture coordinates begin at the top, as in glTF.
 ///           Colours of 8 bits are sRGB; others are linear.
@@ -38,10 +38,12 @@ struct MeshFileMaterial {
     std::string baseColorMap{}, emissiveMap{}, normalMap{}; ///< as the file names them; empty: none
 };
 
-/// Triangles; attributes are empty or have the length of `positions`.
+/// Triangles, or points; attributes are empty or have the length of `positions`.
 struct MeshFilePart {
     static constexpr uint32_t kNoMaterial = ~0u;
     std::string name{};
+    bool arePoints = false; ///< then there are no indices
+    double3 origin{ 0 };    ///< what `positions` are relative to; 0 unless the file has coordinates of the type double
     std::vector<float3> positions{}, normals{};
     std::vector<float2> uvs{};
     std::vector<float4> colors{};    ///< linear

@@ -41,15 +41,21 @@ inline std::string_view takeLine(std::string_view& text) {
     return line;
 }
 
-/// A finite number that a float holds.
-inline std::optional<float> floatOf(std::string_view word) {
+/// A finite number within the range of a float.
+inline std::optional<double> doubleOf(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool isSmall = error == std::errc::result_out_of_range && std::abs(value) < 1; // 1e-400 counts as 0
     if (word.empty() || end != word.data() + word.size() || (error != std::errc{} && !isSmall)) return std::nullopt;
-    const auto rounded = static_cast<float>(isSmall ? 0 : value);
-    return std::isfinite(rounded) ? std::optional(rounded) : std::nullopt;
+    if (isSmall) value = 0;
+    return std::isfinite(static_cast<float>(value)) ? std::optional(value) : std::nullopt;
+}
+
+/// A finite number that a float holds.
+inline std::optional<float> floatOf(std::string_view word) {
+    const std::optional<double> value = doubleOf(word);
+    return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
 inline std::optional<int64_t> integerOf(std::string_view word) {

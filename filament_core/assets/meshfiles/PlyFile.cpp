@@ -128,12 +128,12 @@ public:
 
     /// False: the data ends, or is no number.
     bool read(Number type, double& value) {
-        return mEncoding == Encoding::Text ? readWord(value) : readBytes(type, value);
+        return mEncoding == Encoding::Text ? readWord(type, value) : readBytes(type, value);
     }
     size_t left() const { return mRest.size(); }
 
 private:
-    bool readWord(double& value) {
+    bool readWord(Number type, double& value) {
         std::string_view word;
         do { // words may go on in the next line
             while (!mRest.empty() && mRest.front() == '\n') mRest.remove_prefix(1);
@@ -143,10 +143,12 @@ private:
             word = takeWord(line);
             mRest.remove_prefix(before - line.size());
         } while (word.empty() && !mRest.empty());
-        const std::optional<float> number = floatOf(word);
+        const std::optional<double> number = doubleOf(word);
         const std::optional<int64_t> integer = integerOf(word); // an index may have more digits than a float
         if (!number) return false;
-        value = integer ? static_cast<double>(*integer) : static_cast<double>(*number);
+        value = integer                  ? static_cast<double>(*integer)
+                : type == Number::Double ? *number
+                                         : static_cast<double>(static_cast<float>(*number));
         return true;
     }
 
@@ -228,8 +230,8 @@ public:
     Result<MeshFile> read() {
         for (Element const& element : mHeader.elements)
             if (Result<void> done = readElement(element); !done) return done.error();
-        if (mPart.indices.empty())
-            return fail(ErrorCode::Unsupported, "the file has no faces: clouds of points are not read");
+        if (mPart.positions.empty()) return fail(ErrorCode::Unsupported, "the file has no vertices");
+        mPart.arePoints = mPart.indices.empty();
         for (const uint32_t index : mPart.indices)
             if (index >= mPart.positions.size())
                 return fail(ErrorCode::Corrupt, "a face names vertex {} of {}", index, mPart.positions.size());
@@ -284,8 +286,12 @@ private:
 
     Result<void> readVertices(Element const& element) {
         std::array<bool, 13> has{};
-        for (Property const& property : element.properties)
-            if (!property.count) has[static_cast<size_t>(useOf(property.name))] = true;
+        bool hasDoubles = false;
+        for (Property const& property : element.properties) {
+            if (property.count) continue;
+            has[static_cast<size_t>(useOf(property.name))] = true;
+            hasDoubles |= property.type == Number::Double && useOf(property.name) <= Use::Z;
+        }
         const auto hasAll = [&](Use first, Use last) {
             for (size_t i = size_t(first); i <= size_t(last); ++i)
                 if (!has[i]) return false;
@@ -297,16 +303,20 @@ private:
         std::vector<double> list;
         for (uint64_t i = 0; i < element.count; ++i) {
             std::array<float, 13> value{};
+            double3 place{ 0 };
             value[size_t(Use::Alpha)] = 1;
             for (Property const& property : element.properties) {
                 if (Result<void> done = readList(property, list, element, i); !done) return done;
                 if (property.count || list.empty()) continue;
                 const Use use = useOf(property.name);
+                if (use <= Use::Z) place[static_cast<int>(use)] = list[0];
                 value[size_t(use)] = use >= Use::Red && use <= Use::Alpha
                                              ? colorOf(property.type, list[0], use == Use::Alpha)
                                              : static_cast<float>(list[0]);
             }
-            mPart.positions.push_back({ value[0], value[1], value[2] });
+            const double largest = std::max({ std::abs(place.x), std::abs(place.y), std::abs(place.z) });
+            if (hasDoubles && i == 0 && largest < 1e15) mPart.origin = glm::round(place); // no difference overflows
+            mPart.positions.emplace_back(place - mPart.origin);
             if (normals) mPart.normals.push_back({ value[3], value[4], value[5] });
             if (uvs) mPart.uvs.push_back({ value[6], 1 - value[7] });
             if (colors) mPart.colors.push_back({ value[8], value[9], value[10], value[11] });

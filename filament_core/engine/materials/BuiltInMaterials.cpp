@@ -27,13 +27,14 @@ constexpr std::array kBuiltIn{
     BuiltInMaterial{ "shadowCatcher", "nothing but the shadows on it" },
     BuiltInMaterial{ "litShadowCatcher", "the shadows of all lights on it, and screen-space reflections" },
     BuiltInMaterial{ "wireframe", "lines of any width: makeWireframe(), makeLineQuads()" },
+    BuiltInMaterial{ "points", "discs and squares of any size: makePointQuads()" },
 };
 
 /// The packages of kBuiltIn, in its order.
 constexpr std::array<std::string_view, kBuiltIn.size()> kPackages{
     "built_in_lit",        "built_in_unlit",        "built_in_lit_textured",   "built_in_unlit_textured",
     "built_in_lit_colors", "built_in_unlit_colors", "built_in_shadow_catcher", "built_in_lit_shadow_catcher",
-    "built_in_wireframe",
+    "built_in_wireframe",  "built_in_points",
 };
 
 struct InitialValue {
@@ -45,6 +46,7 @@ struct InitialValue {
 const std::array kInitialValues{
     InitialValue{ "baseColor", float3(1) }, InitialValue{ "roughness", 0.5f }, InitialValue{ "reflectance", 0.5f },
     InitialValue{ "lineWidth", 1.0f },      InitialValue{ "depthBias", 4.0f }, InitialValue{ "strength", 0.6f },
+    InitialValue{ "pointPixels", 4.0f },    InitialValue{ "disc", true },
 };
 
 void writeInitialValues(scene::Material& material) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Materials that are part of the library, for programs without .mat files. docs/built-in-materials.md shows them.
 ///   Names      lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors, shadowCatcher,
-///              litShadowCatcher, wireframe.
+///              litShadowCatcher, wireframe, points.
 ///   Parameters linear colours without alpha; an instance starts with the values in brackets.
 ///                baseColor           float3  [1 1 1]  all but shadowCatcher; times the texture or the colour of the
 ///                                    vertex
@@ -16,11 +16,15 @@
 ///                lineWidth           float   [1]      wireframe: pixels, [0, 1024]
 ///                depthBias           float   [4]      wireframe: lines hide their surface up to this slope: 4 is 76
 ///                                    degrees
+///                pointPixels         float   [4]      points: the least diameter, pixels, [0, 1024]
+///                pointMeters         float   [0]      points: the diameter in the world, metres, [0, 1e6]
+///                disc                bool    [true]   points: round; false: square
 ///              Without a map its texel is white. All are opaque but catchers of shadows, with their back culled
 ///              except for wireframe; what any instance can change (Engine::setCulling(), setDoubleSided(),
 ///              setStencil(), ...) these can, too.
 ///   Vertices   position; lit*: tangents; *Textured: uv0, (0, 0) is the lower left corner of the image; *ertexColors:
-///              color; wireframe: what makeWireframe() and makeLineQuads() return. A Mesh has all but the last.
+///              color; wireframe: what makeWireframe() and makeLineQuads() return; points: what makePointQuads()
+///              returns. A Mesh has all but the last two.
 ///   Catchers   show a photograph of the ground behind them, with shadows. shadowCatcher: of the brightest sun, for
 ///              little; litShadowCatcher: of all lights and of occlusion, by the share of the light that they take from
 ///              a ground of its baseColor, roughness and reflectance; with screenSpaceReflections it mirrors what

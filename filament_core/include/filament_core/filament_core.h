@@ -40,6 +40,7 @@
 #include <filament_core/Objects.h>
 #include <filament_core/Options.h>
 #include <filament_core/Photometry.h>
+#include <filament_core/Points.h>
 #include <filament_core/PostProcess.h>
 #include <filament_core/Primitives.h>
 #include <filament_core/ProbeCapture.h>

@@ -36,6 +36,18 @@ uint objectIndex() { return mesh_instance; }
 #endif
 #endif
 
+#if defined(SIZED_POINTS)
+// The four corners of a point follow each other, counter-clockwise as y points down; of mirrored objects the other way.
+vec2 getPointCorner() {
+    int corner = gl_VertexIndex & 3;
+    float side = 1.0;
+#if defined(VERTEX_DOMAIN_OBJECT)
+    side = objectUniforms.objects[objectIndex()].flags.x;
+#endif
+    return vec2(corner == 1 || corner == 2 ? side : -side, corner >= 2 ? -1.0 : 1.0);
+}
+#endif
+
 vec4 getPosition() { return vec4(meshPosition(), 1.0); }
 int getVertexIndex() { return gl_VertexIndex; }
 #if defined(INSTANCED)
@@ -133,6 +145,10 @@ struct MaterialVertexInputs {
 #if defined(WIDE_LINES)
     float lineWidth; // with wideLines: pixels, 1 to 1024
     vec4 lineEnd;    // with wideLines: the other end of the segment, in the space of worldPosition
+#endif
+#if defined(SIZED_POINTS)
+    float pointPixels; // with sizedPoints: the side of the square in pixels, at most 1024
+    float pointMeters; // with sizedPoints: the same in metres; the larger of both counts
 #endif
     MATERIAL_VARIABLES_AS_MEMBERS
 #if defined(HAS_CLIP_SPACE_POSITION)

@@ -27,6 +27,20 @@ vec4 widened(vec4 clip, vec4 end, float side, float width) {
 }
 #endif
 
+#if defined(SIZED_POINTS)
+const float kMaxPointPixels = 1024.0, kMaxPointMeters = 1e6;
+
+// From the centre of a point to one of its corners. In metres, the lens scales what is parallel to the image.
+vec4 spreadPoint(vec4 clip, float pixels, float meters) {
+    float onScreen = pixels > 0.0 ? min(pixels, kMaxPointPixels) : 0.0; // NaN: nothing
+    float inWorld = meters > 0.0 ? min(meters, kMaxPointMeters) : 0.0;
+    vec2 lens = abs(vec2(frameUniforms.clipFromView[0].x, frameUniforms.clipFromView[1].y));
+    vec2 halfSide = max(onScreen * clip.w / passUniforms.target.xy, 0.5 * inWorld * lens); // the screen is 2 wide
+    clip.xy += getPointCorner() * halfSide;
+    return clip;
+}
+#endif
+
 #if defined(NEEDS_NORMAL)
 vec3 vertexTangent; // in object space, deformed
 float vertexFrameSign = 1.0; // -1 if bones mirror
@@ -63,6 +77,10 @@ MaterialVertexInputs materialVertexInputs() {
     inputs.lineWidth = 1.0;
     inputs.lineEnd = worldPositionOf(vec4(mesh_custom0.xyz, 1.0));
 #endif
+#if defined(SIZED_POINTS)
+    inputs.pointPixels = 1.0;
+    inputs.pointMeters = 0.0;
+#endif
 
 #if defined(HAS_CLIP_SPACE_POSITION) && defined(VERTEX_DOMAIN_DEVICE)
     inputs.clipSpacePosition = getPosition();
@@ -91,6 +109,9 @@ vec4 clipPosition(MaterialVertexInputs inputs, mat4 clipFromWorld) {
 #if defined(WIDE_LINES)
     vec4 lineEnd = clipFromWorld * vec4(inputs.lineEnd.xyz, 1.0);
     clip = widened(inFront(clip, lineEnd), lineEnd, mesh_custom0.w, inputs.lineWidth);
+#endif
+#if defined(SIZED_POINTS)
+    clip = spreadPoint(clip, inputs.pointPixels, inputs.pointMeters);
 #endif
     return clip;
 }

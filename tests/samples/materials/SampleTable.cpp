@@ -71,6 +71,7 @@ std::vector<Sample> samples() {
         { "sampler_int", { "index % 8", "index % 4" }, kBrighter },
         { "shadow_multiplier", { "shadowMultiplier : true", "shadowMultiplier : false" }, kBrighter },
         { "sheen", { "color=0.8,0.6,0.9", "color=0,0,0" }, kBrighter },
+        { "sized_points", { "material.pointPixels = materialParams.pixels;", "" } },
         { "specular_anti_aliasing", { "specularAntiAliasing : true", "specularAntiAliasing : false" } },
         { "specular_glossiness", { "glossiness=0.75", "glossiness=0.25" } },
         { "specular_weight", { "material.specularFactor = 0.9;", "material.specularFactor = 0.0;" }, kBrighter },

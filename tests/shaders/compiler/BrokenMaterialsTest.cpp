@@ -93,6 +93,10 @@ constexpr Broken kContradictions[] = {
     { "material { shadingModel : unlit, vertexDomain : device, requires : [ custom0 ],\n wideLines : true "
       "}" GOOD_FRAGMENT,
       "a.mat:2: wideLines needs positions in space; leave out vertexDomain : device" },
+    { "material { shadingModel : unlit, vertexDomain : device,\n sizedPoints : true }" GOOD_FRAGMENT,
+      "a.mat:2: sizedPoints needs positions in space; leave out vertexDomain : device" },
+    { "material { requires : [ custom0 ], wideLines : true,\n sizedPoints : true }" GOOD_FRAGMENT,
+      "a.mat:2: a mesh holds points or lines; leave out sizedPoints or wideLines" },
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.roughness = float(getInstanceIndex());"),
       "a.mat:2: this block calls getInstanceIndex(); that needs the property instanced : true" },
     { "material {\n blending : transparent,\n refractionMode : cubemap }" GOOD_FRAGMENT,

@@ -34,6 +34,7 @@ constexpr Default kDefaults[] = {
     { "interpolation", "smooth" },
     { "fullScreenTriangle", "false" },
     { "wideLines", "false" },
+    { "sizedPoints", "false" },
     { "halfPrecision", "false" },
     { "blending", "opaque" },
     { "blendFunction", "" }, // only with blending : custom, and then it must be there

@@ -60,8 +60,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
                                   (package.filteredVariants & kVariantSkinning) == 0;
         const bool stopsLight = package.blending == Blending::Opaque || package.blending == Blending::Masked;
         const size_t depth = isSurface && stopsLight && (package.depthWrite || isDeformable) ? 1 : 0;
-        const bool hasVertexBlock =
-                name == "motion" || name == "level_fade" || name == "built_in_wireframe" || name == "light_shape_image";
+        const bool hasVertexBlock = name == "motion" || name == "level_fade" || name == "built_in_wireframe" ||
+                                    name == "built_in_points" || name == "light_shape_image";
         const size_t motion = hasVertexBlock ? 1 : 0;
         const bool isOfGeometry = (package.requiredAttributes >> kAttributePosition & 1) != 0;
         const size_t debug = isSurface && isOfGeometry ? 1 : 0;

@@ -178,6 +178,30 @@ TEST(PlyFile, TextAndBothByteOrdersAreTheSameMesh) {
     }
 }
 
+TEST(PlyFile, WithoutFacesIsACloudOfPoints) {
+    std::string text = plyText();
+    text.replace(text.find("element face 1"), 14, "element face 0");
+    const Result<MeshFile> file = readText(text, MeshFormat::Ply);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_TRUE(file->parts.at(0).arePoints);
+    EXPECT_EQ(file->parts[0].positions.size(), 4u);
+    EXPECT_EQ(file->parts[0].origin, double3(0));
+    text.replace(text.find("element vertex 4"), 16, "element vertex 0");
+    EXPECT_EQ(refusal(text, MeshFormat::Ply), "the file has no vertices");
+}
+
+TEST(PlyFile, OfDoublesIsRelativeToAnOrigin) {
+    std::string text = plyText();
+    for (size_t at = text.find("property float"); at != std::string::npos; at = text.find("property float"))
+        text.replace(at, 14, "property double");
+    text.replace(text.find("0 0 0 255"), 5, "6000000.0625 0 -1");
+    const Result<MeshFile> file = readText(text, MeshFormat::Ply);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ(file->parts.at(0).origin, double3(6e6, 0, -1));
+    EXPECT_EQ(file->parts[0].positions[0], float3(0.0625f, 0, 0));
+    EXPECT_EQ(file->parts[0].positions[1], float3(1 - 6e6f, 0, 1));
+}
+
 TEST(PlyFile, SaysWhatIsWrong) {
     const auto refused = [](std::string const& from, std::string const& to) {
         std::string text = plyText();
@@ -187,7 +211,6 @@ TEST(PlyFile, SaysWhatIsWrong) {
     EXPECT_EQ(refused("4 0 1 2 3", "4 0 1 2 4"), "a face names vertex 4 of 4");
     EXPECT_EQ(refused("4 0 1 2 3", "4 0 1 2 -1"), "face 0 names a vertex below 0");
     EXPECT_EQ(refused("4 0 1 2 3", "9 0 1 2 3"), "element 0 of 'face' ends before its numbers, or has a wrong one");
-    EXPECT_EQ(refused("element face 1", "element face 0"), "the file has no faces: clouds of points are not read");
     EXPECT_EQ(refused("element face 1", "element face 99999"), "99999 elements 'face' are not in 11 bytes");
     EXPECT_EQ(refused("property float x\n", ""), "vertices have no x, y and z");
     EXPECT_NE(refused("1.0", "2.0").find("the format is not"), std::string::npos);
@@ -238,6 +261,11 @@ TEST(MeshFile, PassesThroughTheLoaderOfGltfFiles) {
     EXPECT_EQ(ply->materials.at(0).metallicFactor, 0);
     EXPECT_TRUE(ply->materials.at(0).doubleSided);
     EXPECT_TRUE(obj->materials[0].doubleSided);
+    std::string points = plyText();
+    std::ofstream(folder / "points.ply") << points.replace(points.find("element face 1"), 14, "element face 0");
+    const Result<ModelData> cloud = loadGltf(folder / "points.ply", jobs);
+    ASSERT_TRUE(cloud.ok()) << cloud.error().message;
+    EXPECT_EQ(cloud->meshes.at(0).primitives.at(0).topology, backend::PrimitiveType::Points);
     EXPECT_EQ(loadGltf(folder / "broken.obj", jobs).error().message,
               "broken.obj: line 1: a position needs three numbers");
 }
