@@ -5,7 +5,7 @@
 ///           points, curves and smoothing groups are left out, with a warning.
 ///   MTL     Kd, Ke, Ns, d, Tr, Pr, Pm, map_Kd, map_Ke, norm. Other maps are left out, with a warning.
 ///   PLY     1.0 as text and in both byte orders: x y z, nx ny nz, u v (s t), red green blue alpha, and faces. Without
-///           faces the vertices are points.
+///           faces the vertices are points, and those without a finite position are left out.
 ///   STL     text and binary. Normals are those of the triangles, not those of the file.
 ///   Out     as the file has it: units and axes are not converted. Texture coordinates begin at the top, as in glTF.
 ///           Colours of 8 bits are sRGB; others are linear.

@@ -2,6 +2,7 @@
 // Turk 1994, "The PLY Polygon File Format".
 #include "filament_core/assets/meshfiles/MeshFile.h"
 #include "filament_core/assets/meshfiles/MeshWords.h"
+#include "filament_core/assets/meshfiles/PolygonTriangles.h"
 
 #include <filament_core/Color.h>
 
@@ -10,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace filament_core::assets {
 namespace {
@@ -126,7 +128,7 @@ class Numbers {
 public:
     Numbers(std::string_view rest, Encoding encoding) : mRest(rest), mEncoding(encoding) {}
 
-    /// False: the data ends, or is no number.
+    /// False: the data ends, or is no number. What is not finite, or no float would hold, is NaN.
     bool read(Number type, double& value) {
         return mEncoding == Encoding::Text ? readWord(type, value) : readBytes(type, value);
     }
@@ -145,11 +147,23 @@ private:
         } while (word.empty() && !mRest.empty());
         const std::optional<double> number = doubleOf(word);
         const std::optional<int64_t> integer = integerOf(word); // an index may have more digits than a float
-        if (!number) return false;
+        if (!number) {
+            value = std::numeric_limits<double>::quiet_NaN();
+            return isNotFinite(word);
+        }
         value = integer                  ? static_cast<double>(*integer)
                 : type == Number::Double ? *number
                                          : static_cast<double>(static_cast<float>(*number));
         return true;
+    }
+
+    /// As C's printf() writes what is not finite, and as that of old Windows does ("-1.#IND"); also 1e99.
+    static bool isNotFinite(std::string_view word) {
+        if (word.starts_with('+')) word.remove_prefix(1);
+        if (word.starts_with("1.#") || word.starts_with("-1.#")) return true;
+        double value = 0;
+        const char* end = word.data() + word.size();
+        return !word.empty() && std::from_chars(word.data(), end, value).ptr == end;
     }
 
     template <class T>
@@ -189,7 +203,8 @@ private:
             value = bits<double>();
             break;
         }
-        return std::isfinite(value) && std::abs(value) < 3e38; // fits a float
+        if (!(std::abs(value) < 3e38)) value = std::numeric_limits<double>::quiet_NaN();
+        return true;
     }
 
     std::string_view mRest;
@@ -230,11 +245,15 @@ public:
     Result<MeshFile> read() {
         for (Element const& element : mHeader.elements)
             if (Result<void> done = readElement(element); !done) return done.error();
-        if (mPart.positions.empty()) return fail(ErrorCode::Unsupported, "the file has no vertices");
         mPart.arePoints = mPart.indices.empty();
+        if (mPart.arePoints) leaveOutUnplaced();
+        if (mPart.positions.empty()) return fail(ErrorCode::Unsupported, "the file has no vertices");
         for (const uint32_t index : mPart.indices)
             if (index >= mPart.positions.size())
                 return fail(ErrorCode::Corrupt, "a face names vertex {} of {}", index, mPart.positions.size());
+        for (const uint32_t index : mPart.indices)
+            if (isUnplaced(index)) return fail(ErrorCode::Corrupt, "vertex {} of a face has no finite position", index);
+        for (const uint32_t index : mUnplaced) mPart.positions[index] = mPart.positions[mPart.indices[0]];
         return MeshFile{ .parts = { std::move(mPart) } };
     }
 
@@ -254,12 +273,37 @@ private:
                 if (element.name != "face" || !isFace) continue;
                 if (!std::ranges::all_of(list, [](double n) { return n >= 0 && n < double(kMostVertices); }))
                     return fail(ErrorCode::Corrupt, "face {} names a vertex below 0", i);
-                for (size_t corner = 2; corner < list.size(); ++corner)
-                    for (const size_t c : { size_t{ 0 }, corner - 1, corner })
-                        mPart.indices.push_back(static_cast<uint32_t>(list[c]));
+                addFace(list);
             }
         }
         return {};
+    }
+
+    void addFace(std::vector<double> const& list) {
+        if (list.size() < 3) return;
+        mCorners.clear();
+        for (const double index : list) { // of vertices that come after faces, or never, nothing is known
+            const auto place = static_cast<uint32_t>(index);
+            mCorners.push_back(place < mPart.positions.size() && !isUnplaced(place) ? mPart.positions[place]
+                                                                                    : float3(0.0f));
+        }
+        for (std::array<uint32_t, 3> const& triangle : mTriangles.of(mCorners))
+            for (const uint32_t corner : triangle) mPart.indices.push_back(static_cast<uint32_t>(list[corner]));
+    }
+
+    bool isUnplaced(uint32_t vertex) const { return std::ranges::binary_search(mUnplaced, vertex); }
+
+    /// Sensors write a point where they saw none.
+    void leaveOutUnplaced() {
+        if (mUnplaced.empty()) return;
+        const auto keep = [&](auto& list) {
+            size_t kept = 0;
+            for (size_t i = 0; i < list.size(); ++i)
+                if (!isUnplaced(static_cast<uint32_t>(i))) list[kept++] = list[i];
+            list.resize(kept);
+        };
+        keep(mPart.positions), keep(mPart.normals), keep(mPart.uvs), keep(mPart.colors);
+        mUnplaced.clear();
     }
 
     static std::string safe(std::string_view word) {
@@ -286,7 +330,7 @@ private:
 
     Result<void> readVertices(Element const& element) {
         std::array<bool, 13> has{};
-        bool hasDoubles = false;
+        bool hasDoubles = false, hasOrigin = false;
         for (Property const& property : element.properties) {
             if (property.count) continue;
             has[static_cast<size_t>(useOf(property.name))] = true;
@@ -310,12 +354,19 @@ private:
                 if (property.count || list.empty()) continue;
                 const Use use = useOf(property.name);
                 if (use <= Use::Z) place[static_cast<int>(use)] = list[0];
+                const double number = std::isfinite(list[0]) ? list[0] : 0;
                 value[size_t(use)] = use >= Use::Red && use <= Use::Alpha
-                                             ? colorOf(property.type, list[0], use == Use::Alpha)
-                                             : static_cast<float>(list[0]);
+                                             ? colorOf(property.type, number, use == Use::Alpha)
+                                             : static_cast<float>(number);
             }
-            const double largest = std::max({ std::abs(place.x), std::abs(place.y), std::abs(place.z) });
-            if (hasDoubles && i == 0 && largest < 1e15) mPart.origin = glm::round(place); // no difference overflows
+            if (!std::isfinite(place.x + place.y + place.z)) {
+                mUnplaced.push_back(static_cast<uint32_t>(mPart.positions.size()));
+                place = mPart.origin;
+            } else if (hasDoubles && !hasOrigin) {
+                const double largest = std::max({ std::abs(place.x), std::abs(place.y), std::abs(place.z) });
+                if (largest < 1e15) mPart.origin = glm::round(place); // no difference overflows
+                hasOrigin = true;
+            }
             mPart.positions.emplace_back(place - mPart.origin);
             if (normals) mPart.normals.push_back({ value[3], value[4], value[5] });
             if (uvs) mPart.uvs.push_back({ value[6], 1 - value[7] });
@@ -333,6 +384,9 @@ private:
     Header const& mHeader;
     Numbers mNumbers;
     MeshFilePart mPart;
+    std::vector<uint32_t> mUnplaced; ///< vertices whose position is not finite, in order
+    std::vector<float3> mCorners;    ///< of a face
+    PolygonTriangles mTriangles;
 };
 
 } // namespace

@@ -202,6 +202,39 @@ TEST(PlyFile, OfDoublesIsRelativeToAnOrigin) {
     EXPECT_EQ(file->parts[0].positions[1], float3(1 - 6e6f, 0, 1));
 }
 
+// Depth cameras write NaN where they saw nothing, and normals and curvatures that could not be estimated.
+TEST(PlyFile, PointsThatAreNowhereAreLeftOut) {
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                               "property double z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                               "property float curvature\n";
+    const std::string vertices = "nan nan nan nan nan nan nan\n9 0 2 nan -nan inf 1e99\n1 -inf 0 0 0 1 0\n"
+                                 "4 5 6 0 0 1 -1.#IND\n";
+    const Result<MeshFile> cloud = readText(header + "end_header\n" + vertices, MeshFormat::Ply);
+    ASSERT_TRUE(cloud.ok()) << cloud.error().message;
+    MeshFilePart const& part = cloud->parts.at(0);
+    EXPECT_TRUE(part.arePoints);
+    EXPECT_EQ(part.origin, double3(9, 0, 2)) << "the first that is somewhere";
+    EXPECT_EQ(part.positions, (std::vector<float3>{ { 0, 0, 0 }, { -5, 5, 4 } }));
+    EXPECT_EQ(part.normals, (std::vector<float3>{ { 0, 0, 0 }, { 0, 0, 1 } }));
+    const auto faces = [&](const char* face) {
+        return refusal(header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + vertices +
+                               face,
+                       MeshFormat::Ply);
+    };
+    EXPECT_EQ(faces("3 1 3 3\n"), "was read") << "no face has the others";
+    EXPECT_EQ(faces("3 1 3 2\n"), "vertex 2 of a face has no finite position");
+}
+
+TEST(PlyFile, ConcaveFacesAreFilledOnce) {
+    // an arrow head, whose notch is the third corner
+    const Result<MeshFile> file = readText(
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 3 0 1 2\n",
+            MeshFormat::Ply);
+    ASSERT_TRUE(file.ok());
+    EXPECT_EQ(file->parts[0].indices, (std::vector<uint32_t>{ 0, 1, 2, 3, 0, 2 }));
+}
+
 TEST(PlyFile, SaysWhatIsWrong) {
     const auto refused = [](std::string const& from, std::string const& to) {
         std::string text = plyText();
