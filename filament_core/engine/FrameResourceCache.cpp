@@ -60,7 +60,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
         resources.splats = &mEngine.instances.get(mEngine.splatInstance());
         resources.splatLayout = mEngine.layouts.intern(passes::splatLayout());
     }
-    if (prepare::showsEdges(view.debugView)) resources.edges = edges();
+    if (prepare::showsEdges(view.debugView) || prepare::numbersTriangles(view.debugView)) resources.edges = edges();
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm, environment.skyHasGround);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     const bool isDebugView = packet.demand.needs(prepare::Effect::DebugView);

@@ -2,8 +2,12 @@
 #include <filament_core/RenderAovs.h>
 
 #include "base/OutOfMemory.h"
-#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/prepare/NumberObjects.h"
+#include "filament_core/prepare/PreparePick.h"
+#include "filament_core/scene/SceneNodes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace filament_core {
@@ -11,7 +15,9 @@ namespace {
 
 using engine::PublicCall;
 
-Result<std::vector<Image>> drawAovs(Engine& engine, Scene const& scene, View view, std::span<const Aov> aovs) {
+Result<std::vector<Image>> drawAovs(Renderer& renderer, Engine& engine, Scene const& scene, View view,
+                                    std::span<const Aov> aovs) {
+    view.viewport.reset();
     const Owned<Texture> numbers = engine.own(engine.create(TextureDesc{ .format = Format::RGBA32F,
                                                                          .width = view.size.x,
                                                                          .height = view.size.y,
@@ -19,7 +25,6 @@ Result<std::vector<Image>> drawAovs(Engine& engine, Scene const& scene, View vie
                                                                          .name = "renderAovs" }));
     if (!numbers.get()) return outOfMemory("render AOVs: no texture");
     const Owned<RenderTarget> target = engine.own(engine.create(RenderTargetDesc{ .color = numbers }));
-    Renderer renderer(engine);
     std::vector<PixelTicket> tickets;
     for (const Aov aov : aovs) {
         FILAMENT_ASSERT(aov != Aov::None, "renderAovs() takes AOVs other than None");
@@ -36,13 +41,61 @@ Result<std::vector<Image>> drawAovs(Engine& engine, Scene const& scene, View vie
     return images;
 }
 
+/// The handle of what the engine keeps at this address; none: it is nothing of its own.
+template <class Table, class State>
+auto handleOf(Table& table, State const* state) {
+    decltype(table.add()) found{};
+    table.forEachHeld([&](auto handle, auto const& held) {
+        if (&held == state) found = handle;
+    });
+    return found;
+}
+
+/// Numbers count from 1.
+template <class T>
+T const* nth(std::vector<T const*> const& all, uint32_t number) {
+    return number >= 1 && number <= all.size() ? all[number - 1] : nullptr;
+}
+
 } // namespace
 
 Result<std::vector<Image>> renderAovs(Engine& engine, Scene const& scene, View const& view, std::span<const Aov> aovs) {
     const PublicCall call(engine, "renderAovs(Engine, Scene, View)");
-    View whole = view;
-    whole.viewport.reset();
-    return orOutOfMemory("render AOVs", {}, [&] { return drawAovs(engine, scene, whole, aovs); });
+    Renderer renderer(engine);
+    return orOutOfMemory("render AOVs", {}, [&] { return drawAovs(renderer, engine, scene, view, aovs); });
+}
+
+Result<std::vector<Image>> renderAovs(Renderer& renderer, Scene const& scene, View const& view,
+                                      std::span<const Aov> aovs) {
+    const PublicCall call(&scene.impl(), "renderAovs(Renderer, Scene, View)");
+    Engine& engine = *scene.impl().engine.self;
+    return orOutOfMemory("render AOVs", {}, [&] { return drawAovs(renderer, engine, scene, view, aovs); });
+}
+
+PickHit objectOf(Scene const& scene, uint32_t objectId) {
+    const PublicCall call(&scene.impl(), "objectOf(Scene)");
+    scene::SceneData const& data = scene.impl().data;
+    const std::optional<uint32_t> at = prepare::positionOf(data.renderables, objectId);
+    if (!at) return {};
+    const Renderable renderable = data.renderables.index.handleAt(*at);
+    const auto shape = std::ranges::find(data.lightShapes, renderable, &scene::LightShape::renderable);
+    if (shape != data.lightShapes.end()) return { .light = shape->light, .node = scene::nodeOf(data, shape->light) };
+    return { .renderable = renderable,
+             .node = scene::nodeOf(data, renderable),
+             .primitive = prepare::primitiveOf(data, renderable) };
+}
+
+Material materialOf(Scene const& scene, uint32_t materialId) {
+    const PublicCall call(&scene.impl(), "materialOf(Scene)");
+    scene::Material const* const found = nth(prepare::materialsOf(scene.impl().data.renderables), materialId);
+    return found ? handleOf(scene.impl().engine.materials, found) : Material{};
+}
+
+MaterialInstance materialInstanceOf(Scene const& scene, uint32_t materialInstanceId) {
+    const PublicCall call(&scene.impl(), "materialInstanceOf(Scene)");
+    scene::MaterialInstance const* const found =
+            nth(prepare::instancesOf(scene.impl().data.renderables), materialInstanceId);
+    return found ? handleOf(scene.impl().engine.instances, found) : MaterialInstance{};
 }
 
 ExrLayer layerOf(Aov aov, Image const& image) {

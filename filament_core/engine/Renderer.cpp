@@ -90,6 +90,9 @@ void checkNumbers(View const& view, Format target) {
                     "a view has either an aov or a debugView");
 }
 
+/// Numbers leave what a renderer keeps of its frames as it is: all but motion, which counts from one to the next.
+bool isKept(View const& view) { return view.aov == Aov::None || view.aov == Aov::Motion; }
+
 bool joinsLastImage(View const& view) { return view.viewport && view.viewport->contents == TargetContents::Keep; }
 
 } // namespace
@@ -278,7 +281,7 @@ struct Renderer::Impl final : engine::Dependent {
         const Effects effects = clamped(view.effects);
         const auto input = [&] { return inputFor(scene, view, effects, target.depth != nullptr); };
         // Before the share is chosen: times of another view say nothing about this one.
-        beginAnewWithAnother(scene, input());
+        if (isKept(view)) beginAnewWithAnother(scene, input());
         chooseShare(effects.resolution);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext& context = planFrame(scene, view, effects, target, PipelineSource(engine.pipelines), transients);
@@ -291,7 +294,7 @@ struct Renderer::Impl final : engine::Dependent {
         recordFrame(context, target);
         stamps.recorded = clock();
         // Only after recording: a frame that was left out has drawn nothing that the next one could reuse.
-        keepLast(scene, input(), context.packet);
+        if (isKept(view)) keepLast(scene, input(), context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);

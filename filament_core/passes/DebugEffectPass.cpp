@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PostProcessPass.h"
+#include "filament_core/passes/Reprojection.h"
 
 #include <array>
 
@@ -36,6 +37,13 @@ constexpr std::string_view kDebugMaterialInputs[] = { "value" };
 constexpr FullScreenInterface kDebugMaterial{ .pass = "debug view", .inputs = kDebugMaterialInputs };
 constexpr std::string_view kDebugDepthInputs[] = { "depth" };
 constexpr FullScreenInterface kDebugDepth{ .pass = "debug view", .inputs = kDebugDepthInputs };
+constexpr std::string_view kDebugMotionInputs[] = { "depth", "motion" };
+constexpr FullScreenParameter kDebugMotionValues[] = { { "lastFromPixel", ParameterType::Float4x4 },
+                                                       { "perSample", ParameterType::Float2 },
+                                                       { "jitter", ParameterType::Float2 } };
+constexpr FullScreenInterface kDebugMotion{ .pass = "debug view",
+                                            .inputs = kDebugMotionInputs,
+                                            .values = kDebugMotionValues };
 constexpr std::string_view kDebugWireframeInputs[] = { "triangles", "color" };
 constexpr FullScreenInterface kDebugWireframe{ .pass = "debug view", .inputs = kDebugWireframeInputs };
 
@@ -153,6 +161,22 @@ void addDepthView(FrameGraph& graph, FrameContext const& context, FrameTargets c
               .target = targets.output });
 }
 
+void addMotionNumbers(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth },
+                             FullScreenInput{ .name = "motion", .texture = targets.motionVectors } };
+    const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, double2(1)) },
+                             FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) },
+                             FullScreenValue{ "jitter", float2(0) } };
+    const std::array constants{ EffectConstant{ "hasMotion", static_cast<bool>(targets.motionVectors) },
+                                EffectConstant{ "isElsewhere", context.packet.last.isElsewhere } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_motion", constants, kDebugMotion),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = targets.output });
+}
+
 void addWireframeView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
     const bool hasPicture = context.settings().debugView == DebugView::Wireframe;
     const std::array inputs{ FullScreenInput{ .name = "triangles", .texture = targets.triangles },
@@ -181,6 +205,8 @@ void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTar
         return addLuminanceView(graph, context, targets, isEncoded);
     case DebugView::Numerics:
         return addNumericsView(graph, context, targets, isEncoded);
+    case DebugView::Motion:
+        return addMotionNumbers(graph, context, targets);
     case DebugView::Depth:
     case DebugView::Positions:
         return addDepthView(graph, context, targets, isEncoded);

@@ -26,13 +26,18 @@ struct DebugSurfaces {
     TextureId color, depth;
     bool keepsDepth = false; ///< what `depth` has already
     bool isOpaque = false;   ///< opaque ones alone
+    uint8_t samples = 1;     ///< a pixel of `color`
+    TextureId resolved{};    ///< of several samples a pixel: their mean
+    TextureId resolvedDepth{};
+
+    bool areNumbered() const { return debug == DebugSlot::Edges || debug == DebugSlot::Triangles; }
 };
 
 ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSurfaces const& surfaces,
                               PassBlock target) {
     PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.debug = surfaces.debug;
-    slot.edges = context.resources.edges;
+    if (surfaces.areNumbered()) slot.edges = context.resources.edges;
     prepare::ViewPacket const& view = context.packet.mainView();
     if (surfaces.isOpaque) return { chooseDraws(pass, context, slot, target, opaqueWithoutFade(context)), {} };
     return { chooseDraws(pass, context, slot, target, view.opaque),
@@ -42,19 +47,24 @@ ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, De
 void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenSurfaces const& chosen) {
     const FrameView view = viewOf(context, 0);
     for (ChosenDraws const* list : { &chosen.opaque, &chosen.blended }) {
-        const DrawContext draws{ view.group, list->passGroups, context.resources.instanceIds, context.deformations,
-                                 context.settings().quality.textureFilter };
+        const DrawContext draws{ view.group,
+                                 list->passGroups,
+                                 context.resources.instanceIds,
+                                 context.deformations,
+                                 context.settings().quality.textureFilter,
+                                 {},
+                                 !context.packet.numbered.empty() };
         recordDrawRanges(pass, draws, list->draws, list->pipelines);
     }
 }
 
 void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces const& to) {
-    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, to.shown);
+    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, to.shown, to.samples);
     graph.addPass(
             to.name,
             [&](PassBuilder& pass) {
-                pass.writeColor(0, to.color, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
-                framegraph::DepthTarget depth;
+                pass.writeColor(0, to.color, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f }, .resolve = to.resolved });
+                framegraph::DepthTarget depth{ .resolve = to.resolvedDepth };
                 if (!to.keepsDepth)
                     depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
                 pass.writeDepth(to.depth, depth);
@@ -63,22 +73,60 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces c
             [of = &context](PassContext& pass, ChosenSurfaces const& chosen) { recordSurfaces(pass, *of, chosen); });
 }
 
+DebugSlot slotOf(DebugView shown) {
+    if (prepare::showsCoverage(shown)) return DebugSlot::Coverage;
+    return prepare::countsSurfaces(shown) ? DebugSlot::Counts : DebugSlot::Values;
+}
+
+/// With samples of its own; `targets` has the mean.
+void addCoveragePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const uint8_t samples = context.settings().samples;
+    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
+    const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
+    targets.sceneDepth = targets.depth = createLike(graph, targets.color, depth, 1, "depth");
+    addSurfaces(
+            graph, context,
+            { .name = "debug surfaces",
+              .debug = DebugSlot::Coverage,
+              .shown = context.settings().debugView,
+              .color = createLike(graph, targets.color, graph.texture(targets.color).desc.format, samples, "samples"),
+              .depth = createLike(graph, targets.color, depth, samples, "depth of samples"),
+              .samples = samples,
+              .resolved = targets.color,
+              .resolvedDepth = context.keepsDepth ? targets.depth : TextureId{} });
+}
+
+/// Of what `targets.depth` shows, in the place of its values.
+void addTriangleNumbers(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const TextureId numbers = createLike(graph, targets.color, Format::RGBA32F, 1, "triangles");
+    addSurfaces(graph, context,
+                { .name = "triangles",
+                  .debug = DebugSlot::Triangles,
+                  .shown = context.settings().debugView,
+                  .color = numbers,
+                  .depth = targets.depth,
+                  .keepsDepth = true });
+    targets.color = numbers;
+}
+
 } // namespace
 
 void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (context.settings().samples > 1) return addCoveragePass(graph, context, targets);
+    const DebugView shown = context.settings().debugView;
     const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
     const bool hasDepth = targets.depth && !hasStencil;
     if (!hasDepth)
         targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
     targets.sceneDepth = targets.depth;
-    const bool counts = prepare::countsSurfaces(context.settings().debugView);
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
-                  .debug = counts ? DebugSlot::Counts : DebugSlot::Values,
-                  .shown = context.settings().debugView,
+                  .debug = slotOf(shown),
+                  .shown = shown,
                   .color = targets.color,
                   .depth = targets.depth,
                   .keepsDepth = hasDepth });
+    if (prepare::numbersTriangles(shown) && context.resources.edges) addTriangleNumbers(graph, context, targets);
 }
 
 void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {

@@ -4,7 +4,9 @@
 ///                        in FrameTargets::color as shaders/material/surface/debug_main.glsl says. Draws, their order
 ///                        and their depth tests are those of the colour pass, so that their number is the frame's,
 ///                        unless effects of light make it draw a depth prepass; blending is not: the last surface
-///                        counts, which is the nearest one that passes its test.
+///                        counts, which is the nearest one that passes its test. Coverage has as many samples as the
+///                        view, and transparent surfaces are blended. Numbers of triangles take a second pass, over
+///                        the depths of the first.
 ///   addTrianglePass      beside it: which triangle each pixel shows, for its edges. Surfaces that blend hide as others
 ///                        do.
 ///   addNormalsPass       normals of opaque surfaces, for passes of the app.

@@ -97,7 +97,9 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
     FrameTargets targets;
     beginViewportBlit(graph, context, output, targets);
     // What half floats do not hold is to be seen, or given.
-    const bool isFull = context.settings().debugView == DebugView::Numerics || context.settings().givesNumbers;
+    const DebugView shown = context.settings().debugView;
+    const bool isFull =
+            shown == DebugView::Numerics || prepare::numbersObjects(shown) || context.settings().givesNumbers;
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) &&
                             !context.packet.demand.changesColor() && context.appPasses.empty();
     targets.color = isFinished ? targets.output
@@ -115,7 +117,13 @@ void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTarge
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
     if (prepare::showsMaterials(shown)) return addDebugSurfacePass(graph, context, targets);
-    if (prepare::showsLight(shown)) {
+    const bool givesNumbers = context.settings().givesNumbers;
+    if (prepare::givesMotion(shown, givesNumbers)) {
+        addDebugSurfacePass(graph, context, targets);
+        targets.prepassDepth = targets.depth;
+        return addMotionPass(graph, context, targets);
+    }
+    if (prepare::showsLight(shown, givesNumbers)) {
         addFogLightPass(graph, context, targets);
         addMotionPass(graph, context, targets);
         addAmbientOcclusionPass(graph, context, targets);
@@ -185,7 +193,10 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addFlarePasses(graph, context, targets);
     // Light becomes display values here. Lines and text of the app come after it, so that no exposure dims them, and
     // before the blit, which knows the view's place in the target.
-    if (showsDecisions(context) && prepare::isOfEffectPass(context.settings().debugView))
+    const DebugView shown = context.settings().debugView;
+    const bool isOfEffectPass =
+            prepare::isOfEffectPass(shown) || prepare::givesMotion(shown, context.settings().givesNumbers);
+    if (showsDecisions(context) && isOfEffectPass)
         addDebugEffectPass(graph, context, targets, output.isSceneLinear());
     else if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);

@@ -81,12 +81,12 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
         needs.windows += windowsOf(view);
         needs.hasTable = needs.hasTable || view.hasAreaLights;
     }
-    if (!packet.grids.fields.empty()) {
+    if (!packet.fields().empty()) {
         mViews[0].fields = needs.windows * kWindowBytes;
         for (ViewGroup& list : std::span(mLists).first(packet.mainView().channels.lists.size()))
             list.fields = mViews[0].fields;
         // One more: what is bound with the last field is a whole window.
-        const auto bytes = static_cast<uint32_t>(packet.grids.fields.size_bytes());
+        const auto bytes = static_cast<uint32_t>(packet.fields().size_bytes());
         needs.windows += (bytes + kWindowBytes - 1) / kWindowBytes + 1;
     }
     needs.table = needs.words;
@@ -140,7 +140,7 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
         prepare::writeObjects(jobs, list, objects);
         commands.recordAdopted(CmdUpdateBuffer{ set.objects.buffer, first, std::as_bytes(objects) });
     }
-    const std::span fields = std::as_bytes(packet.grids.fields);
+    const std::span fields = std::as_bytes(packet.fields());
     if (!fields.empty()) commands.record(CmdUpdateBuffer{ set.objects.buffer, mViews[0].fields, fields });
 }
 

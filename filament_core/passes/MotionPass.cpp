@@ -38,9 +38,11 @@ void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws co
 void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Motion)) return;
     const uint2 size = context.settings().size;
-    const framegraph::GraphTextureDesc desc{
-        .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "motion"
-    };
+    const framegraph::GraphTextureDesc desc{ .width = size.x,
+                                             .height = size.y,
+                                             .format = context.settings().givesNumbers ? Format::RGBA32F
+                                                                                       : Format::RGBA16F,
+                                             .name = "motion" };
     targets.motionVectors = graph.createTexture(desc);
     graph.addPass(
             "motion",

@@ -59,9 +59,9 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
 }
 
 PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                             DebugView debugView) {
+                             DebugView debugView, uint8_t samples) {
     static_assert(kDebugViewCount <= kViewNumbers);
-    shader::PassUniforms block = uniformsOf(context, texture, 0, 1);
+    shader::PassUniforms block = uniformsOf(context, texture, 0, samples);
     block.raster.z =
             static_cast<float>(static_cast<uint32_t>(debugView) + (context.settings().givesNumbers ? kViewNumbers : 0));
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));

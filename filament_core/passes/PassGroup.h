@@ -23,7 +23,7 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
 
 /// For surfaces of which a debug view shows a value.
 PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                             DebugView debugView);
+                             DebugView debugView, uint8_t samples = 1);
 
 /// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);

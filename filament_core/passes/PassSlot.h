@@ -21,6 +21,8 @@ enum class DebugSlot : uint8_t {
     Counts, ///< counts of surfaces, added up
     Edges,  ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is
             ///< behind
+    Triangles, ///< these numbers, of what has left the depth that is there, so that masks have their holes
+    Coverage,  ///< how much of the background they cover: transparent ones are blended by their alpha
 };
 
 /// Where a pipeline draws, and how lit materials are shaded there.
@@ -36,7 +38,7 @@ struct PassSlot {
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
     shader::TransparencyTerm transparency = shader::kTransparencyInOrder; ///< all that is drawn blends in any order
     DebugSlot debug = DebugSlot::None;
-    scene::Material const* edges = nullptr; ///< of DebugSlot::Edges
+    scene::Material const* edges = nullptr; ///< of DebugSlot::Edges and Triangles
     bool equalsDepth = false;               ///< surfaces are drawn where the prepass left their depth, and nowhere else
     bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
     std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own

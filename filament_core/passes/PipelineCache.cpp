@@ -190,7 +190,7 @@ PipelineCache::ProgramChoice PipelineCache::chooseWithTextures(uint32_t slot, sc
     if (at.motionOnly)
         return { static_cast<uint16_t>(shader::kVariantMotion | (variant & shader::kVariantSkinning)), 0 };
     if (at.debug != DebugSlot::None) {
-        const int values = at.debug == DebugSlot::Edges ? 0 : shader::kVariantDebug;
+        const int values = at.edges ? 0 : shader::kVariantDebug;
         return { static_cast<uint16_t>(values | (variant & shader::kVariantSkinning)), depthOfViewKey(at.shading) };
     }
     if (material.isLit() && needsNoLight(at.transparency))

@@ -30,6 +30,15 @@ bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
 }
 
+// Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no
+// depth while the test is off, so "no test" is a test that always passes.
+DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange range) {
+    const CompareOp nearer = range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
+    const bool writes = raster.depthWrite && !drawsNothing(raster);
+    if (!raster.depthCulling && !writes) return {};
+    return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
+}
+
 // Whatever is nearer than the depth that is known is equal to it.
 PipelineDesc leavingMotion(PipelineDesc desc, DepthRange range) {
     desc.raster.cull = CullMode::None; // what was culled in the prepass has other depths
@@ -55,18 +64,21 @@ PipelineDesc leavingEdges(PipelineDesc desc, scene::InstanceRaster const& raster
     return desc;
 }
 
-PipelineDesc leavingPick(PipelineDesc desc, scene::InstanceRaster const& raster) {
-    desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+// Nothing is written: what masks cut out is nearer than the depth that is there, and what they leave equals it. Other
+// opaque surfaces may lie behind their own depth (pixelDepthOffset); what the depth does not know is tested as it was.
+PipelineDesc leavingTriangles(PipelineDesc desc, scene::Material const& material, scene::InstanceRaster const& raster,
+                              DepthRange range) {
+    desc.depthStencil = depthState(raster, range);
+    desc.depthStencil.depthWrite = false;
+    const bool isCut = material.package.blending == shader::Blending::Masked;
+    if (isCut && raster.depthCulling && raster.depthWrite) desc.depthStencil.depthCompare = CompareOp::Equal;
+    if (drawsNothing(raster) || !raster.colorWrite) desc.blend[0].writeMask = 0;
     return desc;
 }
 
-// Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no
-// depth while the test is off, so "no test" is a test that always passes.
-DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange range) {
-    const CompareOp nearer = range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
-    const bool writes = raster.depthWrite && !drawsNothing(raster);
-    if (!raster.depthCulling && !writes) return {};
-    return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
+PipelineDesc leavingPick(PipelineDesc desc, scene::InstanceRaster const& raster) {
+    desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+    return desc;
 }
 
 // Colours are pre-multiplied: Porter and Duff 1984, "Compositing Digital Images". Coverage accumulates in alpha.
@@ -102,7 +114,13 @@ BlendState blendState(shader::MaterialPackage const& package) {
     return over;
 }
 
-BlendState debugBlendState(DebugSlot debug) {
+BlendState debugBlendState(DebugSlot debug, scene::Material const& material) {
+    if (debug == DebugSlot::Coverage && material.isBlended())
+        return { .enabled = true,
+                 .srcColor = BlendFactor::One,
+                 .dstColor = BlendFactor::OneMinusSrcAlpha,
+                 .srcAlpha = BlendFactor::One,
+                 .dstAlpha = BlendFactor::OneMinusSrcAlpha };
     if (debug != DebugSlot::Counts) return {};
     return { .enabled = true,
              .srcColor = BlendFactor::One,
@@ -196,6 +214,7 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
     if (slot.motionOnly) return leavingMotion(desc, slot.depthRange);
     if (slot.isPick) return leavingPick(desc, raster);
     if (slot.debug == DebugSlot::Edges) return leavingEdges(desc, raster, slot.depthRange);
+    if (slot.debug == DebugSlot::Triangles) return leavingTriangles(desc, material, raster, slot.depthRange);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.equalsDepth) desc.depthStencil.depthCompare = CompareOp::Equal;
@@ -205,7 +224,8 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
         desc.depthStencil.front = stencilFace(slot.stencil->front);
         desc.depthStencil.back = stencilFace(slot.stencil->back);
     }
-    BlendState blend = slot.debug == DebugSlot::None ? blendState(material.package) : debugBlendState(slot.debug);
+    BlendState blend =
+            slot.debug == DebugSlot::None ? blendState(material.package) : debugBlendState(slot.debug, material);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);
     composeInAnyOrder(desc, slot.transparency);

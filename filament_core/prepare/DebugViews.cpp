@@ -51,6 +51,11 @@ constexpr std::array kDebugViews{
     unlit(DebugView::GeometricNormals, Shows::Material),
     unlit(DebugView::Depth, Shows::Depth),
     unlit(DebugView::Positions, Shows::Depth),
+    unlit(DebugView::ObjectIds, Shows::Objects),
+    unlit(DebugView::MaterialIds, Shows::Objects),
+    unlit(DebugView::MaterialInstanceIds, Shows::Objects),
+    unlit(DebugView::TriangleIds, Shows::Triangles),
+    unlit(DebugView::Coverage, Shows::Coverage),
 };
 
 static_assert(kDebugViews.size() == kDebugViewCount &&
@@ -74,6 +79,12 @@ constexpr std::array<DebugView, kAovCount> kViewsOfAovs{
     DebugView::Metallic,
     DebugView::MaterialOcclusion,
     DebugView::Emissive,
+    DebugView::ObjectIds,
+    DebugView::MaterialIds,
+    DebugView::MaterialInstanceIds,
+    DebugView::TriangleIds,
+    DebugView::Motion,
+    DebugView::Coverage,
 };
 
 } // namespace

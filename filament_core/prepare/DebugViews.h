@@ -8,15 +8,18 @@
 namespace filament_core::prepare {
 
 enum class DebugContent : uint8_t {
-    Image,    ///< the image itself: DebugView::None
-    Shadows,  ///< shadow maps of the lit image
-    Lights,   ///< light lists of the lit image
-    Effect,   ///< what an effect computes
-    Numbers,  ///< of the lit image
-    Material, ///< values that the code of materials gives
-    Depth,    ///< of opaque surfaces
-    Count,    ///< of fragments
-    Edges,    ///< of triangles
+    Image,     ///< the image itself: DebugView::None
+    Shadows,   ///< shadow maps of the lit image
+    Lights,    ///< light lists of the lit image
+    Effect,    ///< what an effect computes
+    Numbers,   ///< of the lit image
+    Material,  ///< values that the code of materials gives
+    Depth,     ///< of opaque surfaces
+    Count,     ///< of fragments
+    Edges,     ///< of triangles
+    Objects,   ///< what surfaces belong to: numbers of objects or of their materials (NumberObjects.h)
+    Triangles, ///< their numbers
+    Coverage,  ///< of pixels by surfaces
 };
 
 struct DebugViewRow {
@@ -36,11 +39,19 @@ DebugView debugViewOf(Aov aov);
 inline bool isOfEffectPass(DebugView view) { return rowOf(view).isOfEffectPass; }
 inline bool countsSurfaces(DebugView view) { return rowOf(view).content == DebugContent::Count; }
 inline bool showsDepths(DebugView view) { return rowOf(view).content == DebugContent::Depth; }
-/// Whether it draws materials' values, or how often their code runs, instead of light.
+inline bool numbersObjects(DebugView view) { return rowOf(view).content == DebugContent::Objects; }
+inline bool numbersTriangles(DebugView view) { return rowOf(view).content == DebugContent::Triangles; }
+inline bool showsCoverage(DebugView view) { return rowOf(view).content == DebugContent::Coverage; }
+/// Whether it draws surfaces' own values, or how often their code runs, instead of light.
 inline bool showsMaterials(DebugView view) {
-    return rowOf(view).content == DebugContent::Material || showsDepths(view) || countsSurfaces(view);
+    return rowOf(view).content == DebugContent::Material || showsDepths(view) || countsSurfaces(view) ||
+           numbersObjects(view) || numbersTriangles(view) || showsCoverage(view);
 }
 inline bool showsEdges(DebugView view) { return rowOf(view).content == DebugContent::Edges; }
-inline bool showsLight(DebugView view) { return rowOf(view).isLit; }
+/// Numbers of motion need no light.
+inline bool givesMotion(DebugView view, bool givesNumbers) { return givesNumbers && view == DebugView::Motion; }
+inline bool showsLight(DebugView view, bool givesNumbers) {
+    return rowOf(view).isLit && !givesMotion(view, givesNumbers);
+}
 
 } // namespace filament_core::prepare

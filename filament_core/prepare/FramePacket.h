@@ -53,7 +53,7 @@ struct DrawCall {
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
     LevelFade fade = 0; ///< of all instances; the depth prepass says which pixels show them (passes/DepthPass.h)
-    /// Into GridPacket::fields: that of the first object, the others follow; kNowhere: the environment lights them.
+    /// Into FramePacket::fields(): that of the first object, the others follow; kNowhere: the environment lights them.
     uint32_t firstField = ~0u;
 };
 
@@ -224,7 +224,13 @@ struct FramePacket {
     SplatPacket splats; ///< of the main view
     ProbePacket probes; ///< of the main view
     GridPacket grids;   ///< of the main view
+    /// Of debug views of numbers, in the place of the fields of `grids`: the objects of the main view, each by itself;
+    /// object.flags.w is its number. DrawCall::firstField counts into it.
+    std::span<const shader::IrradianceField> numbered;
     SceneDemand demand; ///< of the main view
+
+    /// What DrawCall::firstField counts into.
+    std::span<const shader::IrradianceField> fields() const { return numbered.empty() ? grids.fields : numbered; }
 
     /// Of the view that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }

@@ -47,19 +47,19 @@ DisplaySettings displayOf(DisplayTransform const& unlimited) {
 }
 
 /// One layer that is peeled is what sorting draws.
-Quality drawnQuality(Quality const& quality, DebugView debugView) {
+Quality drawnQuality(Quality const& quality, bool isLit) {
     Quality drawn = quality;
     const bool isPeeled = drawn.transparency == TransparencyOrder::Peeled;
     if (isPeeled && drawn.transparencyLayers <= 1) drawn.transparency = TransparencyOrder::Sorted;
-    if (showsLight(debugView)) return drawn;
+    if (isLit) return drawn;
     drawn.shadows = ShadowFilter::Off;
     drawn.refraction = RefractionSource::Environment;
     return drawn;
 }
 
-Effects drawnEffects(Effects const& effects, DebugView debugView) {
+Effects drawnEffects(Effects const& effects, bool isLit) {
     Effects drawn = effects;
-    if (showsLight(debugView)) return drawn;
+    if (isLit) return drawn;
     drawn.ambientOcclusion.enabled = false;
     drawn.screenSpaceReflections.enabled = false;
     return drawn;
@@ -104,16 +104,16 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
 FrameSettings resolve(ViewInput const& main) {
     FILAMENT_ASSERT(main.samples == 1 || main.samples == 4, "a view has 1 or 4 samples a pixel");
     const bool accumulates = accumulatesFrames(main.quality, main.debugView),
-               isImage = main.debugView == DebugView::None;
-    FrameSettings settings{ .quality = drawnQuality(main.quality, main.debugView),
-                            .effects = drawnEffects(main.effects, main.debugView),
+               isImage = main.debugView == DebugView::None, isLit = showsLight(main.debugView, main.givesNumbers);
+    FrameSettings settings{ .quality = drawnQuality(main.quality, isLit),
+                            .effects = drawnEffects(main.effects, isLit),
                             .display = main.display,
                             .debugView = main.debugView,
                             .givesNumbers = main.givesNumbers,
                             .size = main.size,
                             .shownSize = main.shown(),
                             .band = main.band,
-                            .samples = isImage ? main.samples : uint8_t{ 1 },
+                            .samples = isImage || showsCoverage(main.debugView) ? main.samples : uint8_t{ 1 },
                             .maxTextureSize = main.maxTextureSize,
                             .clearColor = main.clearColor,
                             .viewport = main.viewport,
@@ -125,7 +125,7 @@ FrameSettings resolve(ViewInput const& main) {
                             .mipBias = mipBias(main, accumulates) };
     settings.fadesLevels = accumulates && main.lodPixels > 0 && settings.samples == 1 &&
                            settings.quality.depthPrepass != DepthPrepass::Off;
-    settings.lightsFog = lightsFog(settings.effects.fog) && showsLight(main.debugView);
+    settings.lightsFog = lightsFog(settings.effects.fog) && isLit;
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
     // Positions that are not relative to the camera are rounded by more than the margin of occluders.
     const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;

@@ -19,7 +19,7 @@ struct FrameSettings {
     uint2 size{ 1, 1 };              ///< pixels that are drawn
     uint2 shownSize{ 1, 1 };         ///< of the image that is made of them
     uint32_t band = 0;               ///< of `size`, on each side, that the image does not show
-    uint8_t samples = 1;             ///< a pixel; 1 for debug views, which read depths
+    uint8_t samples = 1;             ///< a pixel; 1 for debug views, which read depths, except coverage
     uint32_t maxTextureSize = 16384; ///< ViewInput::maxTextureSize
     float4 clearColor{ 0, 0, 0, 1 };
     std::optional<Viewport> viewport{};

@@ -70,7 +70,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     if (packet.splats.inScene > 0) hash = hashSplats(packet.splats, hash);
     if (!packet.probes.empty()) hash = hashProbes(packet.probes, hash);
-    if (!packet.grids.empty()) hash = hashBytes(std::as_bytes(packet.grids.fields), hash);
+    if (!packet.fields().empty()) hash = hashBytes(std::as_bytes(packet.fields()), hash);
     hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.accumulation.isFixed, packet.last.isExposed,

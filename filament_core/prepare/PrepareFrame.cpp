@@ -3,10 +3,12 @@
 
 #include "filament_core/prepare/CoveredPixels.h"
 #include "filament_core/prepare/DarkLights.h"
+#include "filament_core/prepare/DebugViews.h"
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/HideOccluded.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/NumberObjects.h"
 #include "filament_core/prepare/PlaceGrids.h"
 #include "filament_core/prepare/PlaceProbes.h"
 #include "filament_core/prepare/PrepareMotion.h"
@@ -213,6 +215,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // Last: receivers of shadows, blur and the rest follow from what is in view, hidden or not, as without.
     if (settings.cullsOccluded) hideFromMainView(jobs, arena, scene, drawn[0], packet);
     placeFields(jobs, arena, scene, main, fields, packet); // of what is drawn
+    if (numbersObjects(settings.debugView)) numberObjects(arena, scene, packet);
     return packet;
 }
 

@@ -16,10 +16,13 @@ bool SceneDemand::changesColor() const {
 
 SceneDemand findDemand(DemandInput const& input) {
     SceneDemand demand;
-    const bool isLit = showsLight(input.settings.debugView);
+    FrameSettings const& settings = input.settings;
+    const bool isLit = showsLight(settings.debugView, settings.givesNumbers);
+    const bool isMotion = givesMotion(settings.debugView, settings.givesNumbers);
     for (EffectRow const& row : kEffectTable) {
         if (!row.demand.alone) continue;
-        const bool isLeftOut = row.stage == EffectStage::Lighting && !isLit;
+        const bool isShown = isMotion && row.effect == Effect::Motion;
+        const bool isLeftOut = row.stage == EffectStage::Lighting && !isLit && !isShown;
         demand.effects[static_cast<size_t>(row.effect)] =
                 isLeftOut ? EffectDemand{ .reason = DemandReason::UnlitDebugView } : row.demand.alone(input);
     }

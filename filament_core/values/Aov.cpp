@@ -5,7 +5,7 @@ namespace filament_core {
 
 std::span<const std::string_view> channelsOf(Aov aov) {
     static constexpr std::array<std::string_view, 1> kDepth{ "Z" }, kValue{ "Y" };
-    static constexpr std::array<std::string_view, 2> kCoordinates{ "U", "V" };
+    static constexpr std::array<std::string_view, 2> kCoordinates{ "U", "V" }, kPlane{ "X", "Y" };
     static constexpr std::array<std::string_view, 3> kAxes{ "X", "Y", "Z" }, kColors{ "R", "G", "B" };
     switch (aov) {
     case Aov::None:
@@ -25,7 +25,14 @@ std::span<const std::string_view> channelsOf(Aov aov) {
     case Aov::Roughness:
     case Aov::Metallic:
     case Aov::Occlusion:
+    case Aov::ObjectId:
+    case Aov::MaterialId:
+    case Aov::MaterialInstanceId:
+    case Aov::TriangleId:
+    case Aov::Coverage:
         return kValue;
+    case Aov::Motion:
+        return kPlane;
     }
     return {};
 }

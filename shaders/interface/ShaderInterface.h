@@ -159,7 +159,7 @@ inline constexpr uint32_t kObjectsPerWindow = 256;
 struct ObjectData {
     float4 row0, row1, row2;
     float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance
-                  ///< index; z: how far it has faded, of level_fade.mat; w: unused
+                  ///< index; z: how far it has faded, of level_fade.mat; w: its number or 0
 };
 
 struct ObjectUniforms {

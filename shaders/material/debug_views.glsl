@@ -15,6 +15,14 @@ const int kViewTransparentLayers = 26;
 const int kViewPlausibility = 29;
 const int kViewGeometricNormals = 31;
 const int kViewPositions = 33;
+const int kViewObjectIds = 34;
+const int kViewMaterialIds = 35;
+const int kViewMaterialInstanceIds = 36;
+const int kViewTriangleIds = 37;
+const int kViewCoverage = 38;
+
+// Numbers of triangles are in two parts, which half floats hold: debug_edges.mat.
+const int kTriangleStep = 2048;
 
 // Added to the view of surfaces whose numbers are wanted, in full floats, not their colours.
 const int kViewNumbers = 64;

@@ -3,10 +3,12 @@
 /// compositing, denoising, machine learning and tests. docs/aovs.md.
 ///   Target  a render target of RGBA32F, which has View::size; Renderer::renderAovs() makes one. Each pixel has the
 ///           values of the surface at its centre, from the code of its material: not filtered, whatever View::samples
-///           is. Masked surfaces have their holes.
+///           is, except Coverage. Masked surfaces have their holes.
 ///   Alpha   1 where there is a value; 0.5 where the surface's material has none of this kind (an unlit material has no
 ///           roughness); 0 where no surface is. The other channels are 0 where there is no value.
-///   Layers  transparent surfaces hide those behind them, except from Depth and Position, which do not see them.
+///   Layers  transparent surfaces hide those behind them, except from Depth, Position and Motion, which do not see
+///           them, and from Coverage, which sees all.
+///   Ids     whole numbers from 1 on, exact up to 2^24; objectOf() and its like in RenderAovs.h find what they name.
 ///   Cost    a frame that draws the surfaces once, without light, shadows, sky or effects. Frames without it: none.
 ///   Thread  any; plain values.
 #pragma once
@@ -34,13 +36,33 @@ enum class Aov : uint8_t {
     Metallic,           ///< red: [0, 1]
     Occlusion,          ///< red: the material's own, [0, 1]
     Emissive,           ///< rgb: pre-exposed light
+    ObjectId,           ///< red: 1 + Renderable::index(); each copy of Scene::addInstances() is an object
+    MaterialId,         ///< red: the material's place among those of the scene, from 1 on
+    MaterialInstanceId, ///< red: the instance's place among those of the scene, from 1 on: what files call a material
+    TriangleId,         ///< red: the triangle's place in the indices that are drawn, or a line's or point's, from 0 on
+    Motion,             ///< rg: pixels to the right and down since the renderer's last frame of this; 0 in its first
+    Coverage, ///< red: share of the pixel that surfaces cover, [0, 1]: of its View::samples; by alpha if blended
 };
 template <>
 struct EnumNames<Aov> {
-    static constexpr std::array<std::string_view, 12> values{
-        "none",      "depth",     "position", "normal",    "geometricNormal", "tangent", "textureCoordinates",
-        "baseColor", "roughness", "metallic", "occlusion", "emissive"
-    };
+    static constexpr std::array<std::string_view, 18> values{ "none",
+                                                              "depth",
+                                                              "position",
+                                                              "normal",
+                                                              "geometricNormal",
+                                                              "tangent",
+                                                              "textureCoordinates",
+                                                              "baseColor",
+                                                              "roughness",
+                                                              "metallic",
+                                                              "occlusion",
+                                                              "emissive",
+                                                              "objectId",
+                                                              "materialId",
+                                                              "materialInstanceId",
+                                                              "triangleId",
+                                                              "motion",
+                                                              "coverage" };
 };
 inline constexpr size_t kAovCount = EnumNames<Aov>::values.size();
 

@@ -66,10 +66,16 @@ enum class DebugView : uint8_t {
     GeometricNormals, ///< in world space, without normal maps
     Depth,            ///< of opaque surfaces, along the view
     Positions,        ///< of opaque surfaces in the world, repeated each metre
+    // What the visible surface belongs to, a colour for each number (docs/aovs.md):
+    ObjectIds,           ///< the renderable
+    MaterialIds,         ///< the material that it is drawn with
+    MaterialInstanceIds, ///< the instance of that material
+    TriangleIds,         ///< the triangle of the mesh
+    Coverage,            ///< share of each pixel that surfaces cover, of View::samples
 };
 template <>
 struct EnumNames<DebugView> {
-    static constexpr std::array<std::string_view, 34> values{ "none",
+    static constexpr std::array<std::string_view, 39> values{ "none",
                                                               "cascades",
                                                               "atlas",
                                                               "froxels",
@@ -102,7 +108,12 @@ struct EnumNames<DebugView> {
                                                               "probes",
                                                               "geometricNormals",
                                                               "depth",
-                                                              "positions" };
+                                                              "positions",
+                                                              "objectIds",
+                                                              "materialIds",
+                                                              "materialInstanceIds",
+                                                              "triangleIds",
+                                                              "coverage" };
 };
 inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 

@@ -90,8 +90,22 @@ vec4 debugLayer(MaterialInputs inputs) {
 #endif
 }
 
+// Red: what is covered of the samples that the fragment covers; alpha blends it over what lies behind, and with masks
+// and several samples it says which of these are covered (applyCoverage()).
+vec4 debugCoverage(float alpha) {
+#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
+    return vec4(1.0, 0.0, 0.0, alpha);
+#else
+    return vec4(alpha, 0.0, 0.0, alpha);
+#endif
+}
+
 vec4 debugValue(MaterialInputs inputs, float level, int view, bool isNumber) {
     vec4 shown = debugShading(inputs, view);
+    // The draw has bound the object's record first.
+    if (view >= kViewObjectIds && view <= kViewMaterialInstanceIds)
+        shown = vec4(objectUniforms.objects[0].flags.w, 0.0, 0.0, kHasValue);
+    if (view == kViewCoverage) shown = debugCoverage(inputs.baseColor.a);
     if (view == kViewBaseColor) shown = vec4(inputs.baseColor.rgb, kHasValue);
     if (view == kViewEmissive)
         shown = vec4(inputs.emissive.rgb * mix(1.0, getExposure(), inputs.emissive.a), kHasValue);
@@ -117,8 +131,12 @@ void main() {
     prepareMaterial(inputs);
 #endif
 #if defined(BLEND_MODE_MASKED)
-    if (inputs.baseColor.a < getMaskThreshold()) discard;
+    applyMask(inputs.baseColor);
 #endif
     int view = int(ofFragment(passUniforms.raster.z));
-    fragment_color = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
+    highp vec4 shown = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
+#if defined(ALPHA_TO_COVERAGE)
+    applyCoverage(shown);
+#endif
+    fragment_color = shown;
 }

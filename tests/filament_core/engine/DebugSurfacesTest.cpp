@@ -19,6 +19,8 @@ constexpr std::array kMaterialViews{
     DebugView::Tangents,  DebugView::TextureCoordinates, DebugView::MaterialOcclusion, DebugView::Emissive,
     DebugView::MipLevel,  DebugView::Overdraw,           DebugView::TransparentLayers, DebugView::Plausibility
 };
+constexpr std::array kIdViews{ DebugView::ObjectIds, DebugView::MaterialInstanceIds, DebugView::TriangleIds,
+                               DebugView::Coverage };
 
 /// Squares before a camera that looks along -z from the origin and sees 2 m at a distance of 1 m.
 class SurfaceStage {
@@ -292,12 +294,14 @@ std::vector<Image> shotsOf(Backend backend, const char* file) {
         Animator animator(*model, scene, root);
         if (model->animationCount() > 0) animator.apply(0, 0.9);
         images.push_back(test::renderLinear(*engine, renderer, scene, view));
-        for (const DebugView debugView : kMaterialViews) {
+        const auto shoot = [&](DebugView debugView) {
             view.debugView = debugView;
             auto image = renderer.renderToImage(scene, view);
             EXPECT_TRUE(image.ok());
             if (image) images.push_back(std::move(*image));
-        }
+        };
+        for (const DebugView debugView : kMaterialViews) shoot(debugView);
+        for (const DebugView debugView : kIdViews) shoot(debugView);
     }
     test::expectNoErrors(*engine);
     return images;
@@ -305,7 +309,8 @@ std::vector<Image> shotsOf(Backend backend, const char* file) {
 
 TEST_P(DebugModels, AreSeenWhereTheyAreInThePicture) {
     const std::vector<Image> images = shotsOf(Backend::Vulkan, GetParam()), other = shotsOf(Backend::Gles, GetParam());
-    ASSERT_EQ(images.size(), kMaterialViews.size() + 1);
+    constexpr size_t kFirstId = kMaterialViews.size() + 1;
+    ASSERT_EQ(images.size(), kFirstId + kIdViews.size());
     ASSERT_EQ(other.size(), images.size());
     for (size_t i = 0; i < images.size(); ++i) {
         ASSERT_FALSE(images[i].pixels.empty()) << i;
@@ -318,6 +323,8 @@ TEST_P(DebugModels, AreSeenWhereTheyAreInThePicture) {
             covered += isCovered;
             ASSERT_EQ(debugColorAt(images[10], x, y) != kBlackPixel, isCovered) << x << ' ' << y << ": overdraw";
             ASSERT_EQ(debugColorAt(images[4], x, y) != kBlackPixel, isCovered) << x << ' ' << y << ": normals";
+            for (size_t i = kFirstId; i < images.size(); ++i)
+                ASSERT_EQ(debugColorAt(images[i], x, y) != kBlackPixel, isCovered) << x << ' ' << y << ": ids, " << i;
             ASSERT_TRUE(isCovered || debugColorAt(images[1], x, y) == kBlackPixel) << x << ' ' << y << ": base colour";
         }
     }
