@@ -27,7 +27,7 @@ file(COPY ${CMAKE_CURRENT_LIST_DIR}/ DESTINATION ${work})
 build(${work} ${WORK}/all)
 build(${work}/jobs ${WORK}/jobs)
 set(ENV{LD_LIBRARY_PATH} ${WORK}/all/${LIBDIR}) # pkg-config sets no RPATH
-foreach(program build/c_program build/c_program_pkgconfig build/shared build/static build/scene build/point_cloud
+foreach(program build/c_program build/c_program_pkgconfig build/shared build/static build/scene build/aovs build/point_cloud
         build/pkgconfig_filament_core build/pkgconfig_filament_core_static
         jobs/build/jobs jobs/build/jobs_pkgconfig)
     run_step(${work}/${program})
