@@ -15,6 +15,7 @@
 
 namespace materials {
 std::span<const std::byte> stone(); // as filament_add_materials() generates it
+std::span<const std::byte> edges();
 }
 
 namespace example {
