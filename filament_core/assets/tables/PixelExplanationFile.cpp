@@ -25,6 +25,8 @@ void addIfThere(Json& object, const char* name, std::optional<Value> const& valu
     if (!value) return;
     if constexpr (std::is_same_v<Value, float>)
         object[name] = numberJson(static_cast<double>(*value));
+    else if constexpr (std::is_same_v<Value, uint32_t>)
+        object[name] = *value;
     else
         object[name] = vectorJson(*value);
 }
@@ -44,6 +46,10 @@ Json surfaceJson(PixelSurface const& surface) {
     addIfThere(object, "metallic", surface.metallic);
     addIfThere(object, "occlusion", surface.occlusion);
     addIfThere(object, "emissive", surface.emissive);
+    addIfThere(object, "objectId", surface.objectId);
+    addIfThere(object, "materialId", surface.materialId);
+    addIfThere(object, "materialInstanceId", surface.materialInstanceId);
+    addIfThere(object, "triangleId", surface.triangleId);
     return object;
 }
 
@@ -56,6 +62,10 @@ std::string jsonOf(PixelExplanation const& explanation) {
     Json object{ { "pixel", { explanation.pixel.x, explanation.pixel.y } },
                  { "value", vectorJson(explanation.value) },
                  { "terms", std::move(terms) } };
+    Json lobes = Json::array();
+    for (PixelLobe const& lobe : explanation.lobes)
+        lobes.push_back({ { "name", lobe.name }, { "value", vectorJson(lobe.value) } });
+    if (!explanation.lobes.empty()) object["lobes"] = std::move(lobes);
     if (explanation.surface) object["surface"] = surfaceJson(*explanation.surface);
     return object.dump(2, ' ', false, Json::error_handler_t::replace); // names may be no UTF-8
 }

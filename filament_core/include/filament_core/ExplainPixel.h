@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// explainPixel(): why a pixel has its colour: light by light, effect by effect, and the surface that it shows.
+/// explainPixel(): why a pixel has its colour: light by light, effect by effect, lobe by lobe, and the surface that it
+/// shows.
 /// docs/shares.md, "One pixel".
 ///   Sum     terms in doubles add up to the half floats of the pixel exactly, before tone mapping (Shares.h).
 ///   Thread  the app thread, which waits for the pixels. Not while a frame is drawn.
 ///   Memory  a few hundred bytes; what renderers take is given back.
-///   Cost    a frame for each term, one for each number of the surface, and a pick. Other frames: none.
+///   Cost    a frame for each term and each lobe, one for each number of the surface and each id, and a pick. Other
+///           frames: none.
 #pragma once
 
 #include <filament_core/Aov.h>
@@ -21,6 +23,15 @@ struct PixelTerm {
     double4 value{ 0 }; ///< red, green, blue, alpha; pre-exposed linear light
 };
 
+/// The light of the surface's own material by lobe: "specular", which has with it whatever is not of this surface (fog,
+/// bloom, what lies before it), or "rest" if the material is unlit; then what each further lobe adds: "diffuse",
+/// "diffuseTransmission", "transmission", "sheen", "clearCoat", "iridescence", "emission". "baseColor" is in the place
+/// of "diffuse" where metal is a share of the surface; all that metal reflects is specular. "all": it has none.
+struct PixelLobe {
+    std::string name;
+    double4 value{ 0 }; ///< as of PixelTerm; a layer that dims what is below it may be negative
+};
+
 /// Of the nearest surface at the pixel's centre. Numbers that its material does not have are missing.
 struct PixelSurface {
     Renderable renderable{}; ///< none: a light that is drawn
@@ -34,13 +45,15 @@ struct PixelSurface {
     std::optional<float3> normal, geometricNormal; ///< in the world, unit
     std::optional<float3> baseColor;               ///< linear Rec. 709; pre-multiplied by alpha where it blends
     std::optional<float> roughness, metallic, occlusion;
-    std::optional<float3> emissive; ///< pre-exposed
+    std::optional<float3> emissive;                                               ///< pre-exposed
+    std::optional<uint32_t> objectId, materialId, materialInstanceId, triangleId; ///< as those of Aov
 };
 
 struct PixelExplanation {
     uint2 pixel{ 0 };
     double4 value{ 0 }; ///< of the picture: the sum of the terms
     std::vector<PixelTerm> terms;
+    std::vector<PixelLobe> lobes;        ///< their sum is `value`, too; empty without a renderable
     std::optional<PixelSurface> surface; ///< none: nothing is drawn there
 };
 

@@ -9,6 +9,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace filament_core {
 namespace {
@@ -241,12 +242,18 @@ TEST(ExplainPixel, TermsAddUpAndTheSurfaceIsNamed) {
         stage.view.quality.shadows = ShadowFilter::Pcf3;
         stage.view.effects.vignette.enabled = true;
         constexpr uint2 kAt{ 9, 6 };
+        const Image before = stage.picture();
         const Result<PixelExplanation> explained = explainPixel(stage.engine, stage.scene, stage.view, kAt);
         ASSERT_TRUE(explained) << explained.error().message;
         double4 sum(0);
         for (PixelTerm const& term : explained->terms) sum += term.value;
         EXPECT_EQ(sum, explained->value);
         EXPECT_EQ(sum, double4(test::halfPixel(stage.picture(), kAt.x, kAt.y)));
+        double4 lobes(0);
+        for (PixelLobe const& lobe : explained->lobes) lobes += lobe.value;
+        EXPECT_EQ(lobes, explained->value);
+        EXPECT_EQ(explained->lobes.front().name, "all") << "the material has no factors";
+        EXPECT_EQ(stage.picture().pixels, before.pixels) << "materials are what they were";
         ASSERT_TRUE(explained->surface);
         PixelSurface const& surface = *explained->surface;
         EXPECT_EQ(surface.object, "near");
@@ -254,6 +261,8 @@ TEST(ExplainPixel, TermsAddUpAndTheSurfaceIsNamed) {
         EXPECT_EQ(surface.instance, "wall");
         EXPECT_EQ(surface.baseColor, float3(0.5f, 0.25f, 1));
         EXPECT_EQ(surface.roughness, 0.75f);
+        EXPECT_EQ(surface.objectId, surface.renderable.index() + 1);
+        EXPECT_TRUE(surface.materialId && surface.materialInstanceId && surface.triangleId);
         EXPECT_NEAR(surface.distanceMeters, 0.7, 1e-5);
         texts.push_back(toJson(*explained));
     }
@@ -263,6 +272,60 @@ TEST(ExplainPixel, TermsAddUpAndTheSurfaceIsNamed) {
     EXPECT_EQ(json["terms"][3]["name"], "light1 lamp");
     EXPECT_EQ(json["terms"].back()["kind"], "effect");
     EXPECT_EQ(json["surface"]["material"], "chalk");
+}
+
+constexpr const char* kShareLayers = R"(material { name : layers, requires : [ tangents ], parameters : [
+    { type : float3, name : baseColor }, { type : float, name : metallic }, { type : float, name : clearCoat },
+    { type : float3, name : emissive } ] }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor.rgb = materialParams.baseColor;
+    material.metallic = materialParams.metallic;
+    material.roughness = 0.5;
+    material.clearCoat = materialParams.clearCoat;
+    material.emissive = vec4(materialParams.emissive, 0.0);
+} })";
+
+// Under white light from the front.
+TEST(ExplainPixel, TellsTheLobesOfTheMaterialApart) {
+    std::vector<std::string> texts;
+    for (const Backend backend : test::kBothApis) {
+        test::SquareStage stage(backend, kShareLayers);
+        Scene scene(stage.engine);
+        stage.square.add(scene, stage.instance);
+        scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 3e4f } });
+        stage.engine.set(stage.instance, "baseColor", float3(0.5f, 0.25f, 1));
+        stage.engine.set(stage.instance, "clearCoat", 1.0f);
+        stage.engine.set(stage.instance, "emissive", float3(0.25f, 0, 0.5f));
+        for (const float metallic : { 0.0f, 0.5f, 1.0f }) {
+            stage.engine.set(stage.instance, "metallic", metallic);
+            const Result<PixelExplanation> explained =
+                    explainPixel(stage.engine, scene, test::SquareMesh::view(), uint2(8));
+            ASSERT_TRUE(explained) << explained.error().message;
+            std::string names;
+            std::map<std::string, double4> lobes;
+            double4 sum(0);
+            for (PixelLobe const& lobe : explained->lobes) {
+                names += lobe.name + ' ';
+                lobes[lobe.name] = lobe.value;
+                sum += lobe.value;
+            }
+            EXPECT_EQ(sum, explained->value);
+            EXPECT_EQ(names, metallic == 0   ? "specular diffuse clearCoat emission "
+                             : metallic == 1 ? "specular clearCoat emission "
+                                             : "specular baseColor clearCoat emission ");
+            EXPECT_NEAR(lobes["emission"].x, 0.25, 1e-3 * explained->value.x);
+            EXPECT_EQ(lobes["emission"].y, 0);
+            EXPECT_NEAR(lobes["emission"].z, 0.5, 1e-3 * explained->value.z);
+            texts.push_back(toJson(*explained));
+            if (metallic > 0) continue;
+            EXPECT_GT(lobes["specular"].x, 0);
+            EXPECT_EQ(lobes["specular"].x, lobes["specular"].z) << "dielectrics reflect white";
+            EXPECT_NEAR(lobes["diffuse"].x / lobes["diffuse"].y, 2, 0.02);
+            EXPECT_NEAR(lobes["diffuse"].z / lobes["diffuse"].x, 2, 0.02);
+        }
+    }
+    EXPECT_EQ(std::vector(texts.begin(), texts.begin() + 3), std::vector(texts.begin() + 3, texts.end()));
 }
 
 TEST(ExplainPixel, ShowsNoSurfaceInTheSky) {
