@@ -82,10 +82,11 @@ class ModelTask : public UploadTask<Model, ModelUpload> {
 public:
     ModelTask(Engine::Impl& owner, std::filesystem::path path, GltfLoadOptions const& options)
             : UploadTask(owner, path.filename().string()), mPath(std::move(path)),
-              mOptions(gltfOptions(owner, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
+              mOptions(gltfOptions(owner, options)), mChoice(GltfMaterials::choiceOf(owner, options.sectionPlanes)) {}
     ModelTask(Engine::Impl& owner, GltfMemory const& model, GltfLoadOptions const& options)
             : UploadTask(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
-              mOptions(gltfOptions(owner, model, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
+              mOptions(gltfOptions(owner, model, options)),
+              mChoice(GltfMaterials::choiceOf(owner, options.sectionPlanes)) {}
 
 private:
     Result<void> work() override {

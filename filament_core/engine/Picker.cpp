@@ -22,21 +22,39 @@ static_assert(passes::kPickSide * passes::kPickSide == prepare::kMostCandidates)
 // Of what lies in one plane, depths in two texels may differ by rounding.
 constexpr float kEqual = 1.0f / (1 << 20);
 
+float pickedDepthAt(std::span<const std::byte> texels, size_t i) {
+    float depth = 0;
+    if ((i + 1) * sizeof(float) <= texels.size()) std::memcpy(&depth, texels.data() + i * sizeof(float), sizeof depth);
+    return depth;
+}
+
+/// Whether a back face of the candidate is nearer than all of its front faces.
+template <class P>
+bool showsBack(P const& pending, std::span<const std::byte> texels, size_t candidate) {
+    const auto front = std::ranges::find(pending.fronts, candidate);
+    if (front == pending.fronts.end()) return false;
+    const auto at = pending.candidates.size() + static_cast<size_t>(front - pending.fronts.begin());
+    return pickedDepthAt(texels, at) < pickedDepthAt(texels, candidate);
+}
+
 /// The nearest; of equal ones the last drawn, as on screen.
-PickHit nearestHit(std::vector<PickHit> const& candidates, std::span<const std::byte> texels, Camera const& camera,
-                   uint2 size, uint2 pixel) {
+template <class P>
+PickHit nearestHit(P const& pending, std::span<const std::byte> texels) {
     PickHit nearest;
     float nearestDepth = 0;
-    for (size_t i = 0; i < candidates.size() && (i + 1) * sizeof(float) <= texels.size(); ++i) {
-        float depth = 0;
-        std::memcpy(&depth, texels.data() + i * sizeof(float), sizeof depth);
+    size_t found = 0;
+    for (size_t i = 0; i < pending.candidates.size(); ++i) {
+        const float depth = pickedDepthAt(texels, i);
         // Depth is reversed: the nearest is the largest, and 0 means that nothing was drawn.
         if (!(depth > 0) || depth < nearestDepth * (1 - kEqual)) continue;
         nearestDepth = depth;
-        nearest = candidates[i];
+        nearest = pending.candidates[i];
+        found = i;
     }
     if (!nearest) return {};
-    const prepare::PickedPoint point = prepare::pickedPoint(camera, size, pixel, nearestDepth);
+    prepare::PickedPoint point = prepare::pickedPoint(pending.camera, pending.size, pending.pixel, nearestDepth);
+    if (showsBack(pending, texels, found))
+        point = prepare::pickedCap(pending.section, pending.camera, point).value_or(point);
     nearest.distanceMeters = point.distanceMeters;
     nearest.positionWorld = point.positionWorld;
     return nearest;
@@ -68,10 +86,14 @@ void Picker::makeDepths() {
 }
 
 Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view, uint2 pixel,
-                                 std::span<const uint32_t> renderables) const {
-    Pending pending{ .camera = view.camera, .size = view.size, .pixel = pixel };
-    pending.candidates.reserve(renderables.size());
-    for (const uint32_t at : renderables) {
+                                 prepare::PreparedPick const& pick) const {
+    Pending pending{ .camera = view.camera,
+                     .size = view.size,
+                     .pixel = pixel,
+                     .section = view.section,
+                     .fronts = { pick.fronts.begin(), pick.fronts.end() } };
+    pending.candidates.reserve(pick.renderables.size());
+    for (const uint32_t at : pick.renderables) {
         const Renderable renderable = scene.renderables.index.handleAt(at);
         const auto shape = std::ranges::find(scene.lightShapes, renderable, &scene::LightShape::renderable);
         if (shape != scene.lightShapes.end()) {
@@ -94,7 +116,7 @@ PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare:
     const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel, aim, last);
     const Ticket ticket = mEngine.stream->nextTicket();
     // Noted before the commands are recorded: once they are, the answer will come, and needs its place.
-    mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
+    mPending[ticket.value] = describe(scene, view, pixel, pick);
     if (pick.renderables.empty()) return { ticket.value }; // nothing to draw
     try {
         record(view, pick, resources, pixel, ticket);
@@ -127,7 +149,8 @@ void Picker::record(View const& view, prepare::PreparedPick const& pick, FrameRe
     context.views = mData.views();
     context.deformations = mData.deformations();
     framegraph::record(*commands, plan);
-    const auto rows = static_cast<uint32_t>((pick.renderables.size() + kSide - 1) / kSide);
+    const size_t texels = pick.renderables.size() + pick.fronts.size();
+    const auto rows = static_cast<uint32_t>((texels + kSide - 1) / kSide);
     commands->record(CmdReadTexture{ mDepths, 0, 0, { 0, 0, kSide, rows }, ticket });
 }
 
@@ -145,7 +168,7 @@ std::optional<PickHit> Picker::take(PickTicket ticket) {
     if (!pending.candidates.empty()) {
         const auto texels = mEngine.stream->takeReadback({ ticket.value });
         if (!texels && !mEngine.stream->isDeviceLost()) return std::nullopt;
-        if (texels) hit = nearestHit(pending.candidates, *texels, pending.camera, pending.size, pending.pixel);
+        if (texels) hit = nearestHit(pending, *texels);
     }
     mPending.erase(entry);
     return hit;
@@ -160,7 +183,7 @@ Result<PickHit> Picker::wait(PickTicket ticket) {
         if (pending.candidates.empty()) return PickHit{};
         const auto texels = mEngine.stream->waitReadback({ ticket.value });
         if (!texels) return texels.error();
-        return nearestHit(pending.candidates, *texels, pending.camera, pending.size, pending.pixel);
+        return nearestHit(pending, *texels);
     });
 }
 

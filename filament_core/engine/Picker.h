@@ -41,11 +41,13 @@ private:
         std::vector<PickHit> candidates; ///< without their places
         Camera camera{};
         uint2 size{}, pixel{};
+        SectionPlanes section{};
+        std::vector<uint32_t> fronts{}; ///< of which candidate texels after those of candidates have front faces alone
     };
     using Pendings = std::map<uint64_t, Pending>;
 
     Pending describe(scene::SceneData const& scene, View const& view, uint2 pixel,
-                     std::span<const uint32_t> renderables) const;
+                     prepare::PreparedPick const& pick) const;
     void record(View const& view, prepare::PreparedPick const& pick, FrameResourceCache& resources, uint2 pixel,
                 backend::Ticket ticket);
     void makeDepths();

@@ -376,7 +376,8 @@ struct Renderer::Impl final : engine::Dependent {
             std::vector<passes::FullScreenRequest> requests;
             rehearse(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target, requests);
             engine.dispatches.makeExpected(engine.pending);
-            if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
+            if (view.quality.shadows != ShadowFilter::Off)
+                engine.pipelines.slot(passes::shadowSlot(view.quality, view.section.isUsed()));
             for (passes::FullScreenRequest const& request : requests) {
                 engine.compilations.add({ .material = request.material,
                                           .requests = { { .slot = request.slot, .isFullScreen = true } } },

@@ -152,7 +152,8 @@ void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTarget
 }
 
 void addDepthView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
-    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
+    const TextureId depth = targets.sectionDepth ? targets.sectionDepth : targets.depth;
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = depth } };
     addFullScreenPass(
             graph, context,
             { .name = "debug view",

@@ -40,6 +40,10 @@ PassBlock probesOrNone(FrameContext const& context) {
     return context.blocks->add(std::as_bytes(std::span(&none, 1)));
 }
 
+framegraph::TextureId shownDepthOf(FrameTargets const& targets) {
+    return targets.sectionDepth ? targets.sectionDepth : targets.depth;
+}
+
 BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, FrameTargets const& targets) {
     shader::MaterialPackage const& package = context.resources.debugView->package;
     const SamplerHandle nearest = context.resources.samplers.nearest;
@@ -48,7 +52,7 @@ BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, Frame
               .texture = pass.texture(targets.color),
               .sampler = nearest },
             { .binding = package.findParameter("sceneDepth")->binding,
-              .texture = pass.texture(targets.depth),
+              .texture = pass.texture(shownDepthOf(targets)),
               .sampler = nearest },
             { .binding = package.findParameter("occlusion")->binding,
               .texture = targets.ambientOcclusion ? pass.texture(targets.ambientOcclusion) : context.resources.white,
@@ -78,7 +82,7 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
             "debug view",
             [&](PassBuilder& pass) {
                 pass.readSampled(targets.color);
-                pass.readSampled(targets.depth);
+                pass.readSampled(shownDepthOf(targets));
                 if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
                 if (targets.ambientOcclusion) pass.readSampled(targets.ambientOcclusion);
                 if (targets.motionVectors) pass.readSampled(targets.motionVectors);

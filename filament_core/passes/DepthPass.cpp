@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/SectionDepthPass.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ std::span<const prepare::DrawCall> fadingDepths(FrameContext const& context) {
 }
 
 ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
-    const PassSlot at = depthSlot(context.settings().quality.depthRange, depthOfViewKey(context.shading));
+    const PassSlot at = depthSlot(context.settings(), depthOfViewKey(context.shading));
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
     return chooseDraws(pass, context, at, target, fadingDepths(context));
 }
@@ -72,7 +73,7 @@ void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const uint8_t levels = isMarched ? pyramidLevels(size) : uint8_t{ 1 };
     targets.linearDepth = graph.createTexture(
             { .width = size.x, .height = size.y, .format = Format::R32F, .levels = levels, .name = "distances" });
-    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.prepassDepth } };
     addFullScreenPass(graph, context,
                       { .name = "distances",
                         .material = context.resources.effects->get("linear_depth", {}, kDistance),
@@ -88,10 +89,12 @@ uint8_t pyramidLevels(uint2 view) {
     return static_cast<uint8_t>(std::clamp<uint32_t>(std::bit_width(std::min(view.x, view.y)), 2, kMost + 1) - 1);
 }
 
-PassSlot depthSlot(DepthRange range, ShadingKey shading) {
-    PassSlot slot{
-        .layout = { .depthFormat = Format::D32F }, .shading = shading, .depthRange = range, .depthOnly = true
-    };
+PassSlot depthSlot(prepare::FrameSettings const& settings, ShadingKey shading) {
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F },
+                   .shading = shading,
+                   .depthRange = settings.quality.depthRange,
+                   .depthOnly = true,
+                   .cutsSections = settings.cutsSections };
     slot.layout.subpasses[0].colorMask = 0;
     return slot;
 }
@@ -115,6 +118,8 @@ TextureId addDepthOfView(FrameGraph& graph, FrameContext const& context, uint2 s
 void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::DepthPrepass)) return;
     targets.depth = targets.prepassDepth = addDepthOfView(graph, context, context.settings().size, "depth");
+    if (showsCaps(context))
+        targets.prepassDepth = targets.sectionDepth = addSectionDepthPass(graph, context, targets.depth);
     if (isDistanceRead(context.packet.demand)) addDistances(graph, context, targets);
 }
 

@@ -16,7 +16,7 @@
 namespace filament_core::passes {
 
 /// `shading`: depthOfViewKey().
-PassSlot depthSlot(DepthRange range, ShadingKey shading);
+PassSlot depthSlot(prepare::FrameSettings const& settings, ShadingKey shading);
 
 /// Levels of the pyramid of distances for a view of this size; at most 7, and the smallest is two texels high or more,
 /// if there are several.

@@ -66,7 +66,12 @@ struct FrameContext {
 
 /// Where the scene's surfaces are drawn / an image is drawn over the whole target.
 inline PassSlot slotOf(FrameContext const& context, backend::PassLayout const& layout, uint8_t subpass) {
-    return { layout, subpass, context.shading, context.settings().quality.depthRange, context.precision };
+    return { .layout = layout,
+             .subpass = subpass,
+             .shading = context.shading,
+             .depthRange = context.settings().quality.depthRange,
+             .precision = context.precision,
+             .cutsSections = context.settings().cutsSections };
 }
 inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpass) {
     return { .layout = layout, .subpass = subpass, .isFullScreen = true };

@@ -20,6 +20,7 @@ struct FrameTargets {
     framegraph::TextureId linearDepth;      ///< of opaque surfaces along the view, in metres, R32F; null if unused
     framegraph::TextureId ambientOcclusion; ///< as kBindingOcclusion says; null if unused
     framegraph::TextureId prepassDepth;     ///< that of the prepass, also when `depth` is another one; null: not drawn
+    framegraph::TextureId sectionDepth;     ///< `prepassDepth`, where it has the depths of caps (SectionDepthPass.h)
     framegraph::TextureId motionVectors;    ///< of what moved by itself (MotionPass.h); null: nothing did, or unused
     framegraph::History sceneColorHistory;  ///< `color` of the last frame, and of this one; null if unused
     framegraph::TextureId bloom;            ///< light that bloom scatters, smaller than the image; null if unused

@@ -12,8 +12,12 @@ using framegraph::PassBuilder;
 using framegraph::PassContext;
 using prepare::DrawCall;
 
-PassSlot slotOf(PassContext& pass, DepthRange range) {
-    return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthRange = range, .motionOnly = true };
+PassSlot slotOf(PassContext& pass, prepare::FrameSettings const& settings) {
+    return { .layout = pass.passLayout(),
+             .subpass = pass.subpass(),
+             .depthRange = settings.quality.depthRange,
+             .motionOnly = true,
+             .cutsSections = settings.cutsSections };
 }
 
 /// With the material that draws each.
@@ -50,10 +54,10 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
                 pass.writeColor(0, targets.motionVectors, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
                 // Tested, not written: only what is seen leaves a vector, and the depths of the prepass stay for the
                 // passes after this.
-                pass.writeDepth(targets.prepassDepth, {});
+                pass.writeDepth(targets.depth, {});
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
-                return chooseDraws(pass, *of, slotOf(pass, of->settings().quality.depthRange), target, drawsOf(*of));
+                return chooseDraws(pass, *of, slotOf(pass, of->settings()), target, drawsOf(*of));
             },
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordMotion(pass, *of, chosen); });
 }

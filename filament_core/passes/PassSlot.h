@@ -40,6 +40,7 @@ struct PassSlot {
     DebugSlot debug = DebugSlot::None;
     scene::Material const* edges = nullptr; ///< of DebugSlot::Edges and Triangles
     bool equalsDepth = false;               ///< surfaces are drawn where the prepass left their depth, and nowhere else
+    bool cutsSections = false;              ///< materials with section planes show both sides: caps are on back faces
     bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
     std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own
     friend bool operator==(PassSlot const&, PassSlot const&) = default;

@@ -12,8 +12,12 @@ using framegraph::PassBuilder;
 using framegraph::PassContext;
 using prepare::DrawCall;
 
-PassSlot pickSlot(PassContext& pass) {
-    return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthOnly = true, .isPick = true };
+PassSlot pickSlot(PassContext& pass, bool cutsSections) {
+    return { .layout = pass.passLayout(),
+             .subpass = pass.subpass(),
+             .depthOnly = true,
+             .cutsSections = cutsSections,
+             .isPick = true };
 }
 
 /// With the material that draws each.
@@ -49,7 +53,7 @@ void addPickPass(FrameGraph& graph, FrameContext const& context, framegraph::Tex
     graph.addPass(
             "pick", [&](PassBuilder& pass) { pass.writeDepth(depths, { .clear = 0.0f }); },
             [of = &context, target](PassContext& pass) {
-                return chooseDraws(pass, *of, pickSlot(pass), target, pickDraws(*of));
+                return chooseDraws(pass, *of, pickSlot(pass, of->settings().cutsSections), target, pickDraws(*of));
             },
             [of = &context, size, pixel](PassContext& pass, ChosenDraws const& chosen) {
                 recordPick(pass, *of, chosen, size, pixel);

@@ -47,8 +47,10 @@ uint64_t rasterBits(scene::InstanceRaster const& raster) {
            static_cast<uint64_t>(raster.depthWrite) << 3 | static_cast<uint64_t>(raster.depthCulling) << 4;
 }
 
-scene::InstanceRaster rasterIn(PassSlot const& slot, scene::InstanceRaster const& raster) {
-    return slot.isShadowMap ? scene::inShadowMaps(raster) : raster;
+scene::InstanceRaster rasterIn(PassSlot const& slot, scene::MaterialInstance const& instance) {
+    scene::InstanceRaster raster = slot.isShadowMap ? scene::inShadowMaps(instance.raster) : instance.raster;
+    raster.cullingDisabled |= slot.cutsSections && instance.material->package.sectionPlanes;
+    return raster;
 }
 
 uint64_t makeKey(uint32_t slot, PipelineUse const& use, scene::InstanceRaster const& raster) {
@@ -275,7 +277,7 @@ std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, PipelineUse con
         if (!own) return std::nullopt;
         slot = *own;
     }
-    const uint64_t key = makeKey(slot, use, rasterIn(mSlots[slot], use.instance.raster));
+    const uint64_t key = makeKey(slot, use, rasterIn(mSlots[slot], use.instance));
     PipelineTable::Entry const* entry = mPipelines.find(key);
     return entry ? std::optional(entry->handle) : std::nullopt;
 }
@@ -283,7 +285,7 @@ std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, PipelineUse con
 PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, PipelineUse const& use) {
     if (hasStencilTest(mSlots[slot], use.instance.raster))
         slot = this->slot(withStencil(mSlots[slot], *use.instance.raster.stencil));
-    const scene::InstanceRaster raster = rasterIn(mSlots[slot], use.instance.raster);
+    const scene::InstanceRaster raster = rasterIn(mSlots[slot], use.instance);
     const uint64_t key = makeKey(slot, use, raster);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 

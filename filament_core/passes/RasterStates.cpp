@@ -39,12 +39,11 @@ DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange ran
     return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
 }
 
-// Whatever is nearer than the depth that is known is equal to it.
-PipelineDesc leavingMotion(PipelineDesc desc, DepthRange range) {
+// Whatever is nearer than the depth that is known is equal to it, unless a section plane cuts it off.
+PipelineDesc leavingMotion(PipelineDesc desc, PassSlot const& slot) {
     desc.raster.cull = CullMode::None; // what was culled in the prepass has other depths
-    desc.depthStencil = { .depthCompare =
-                                  range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,
-                          .depthWrite = false };
+    const CompareOp nearer = slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
+    desc.depthStencil = { .depthCompare = slot.cutsSections ? CompareOp::Equal : nearer, .depthWrite = false };
     return desc;
 }
 
@@ -211,7 +210,7 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
         desc.raster.topology = geometry->topology;
     }
     if (slot.isShadowMap) return leavingShadow(desc, raster);
-    if (slot.motionOnly) return leavingMotion(desc, slot.depthRange);
+    if (slot.motionOnly) return leavingMotion(desc, slot);
     if (slot.isPick) return leavingPick(desc, raster);
     if (slot.debug == DebugSlot::Edges) return leavingEdges(desc, raster, slot.depthRange);
     if (slot.debug == DebugSlot::Triangles) return leavingTriangles(desc, material, raster, slot.depthRange);
@@ -239,6 +238,7 @@ PipelineDesc surfaceStates(PassSlot const& slot, PipelineUse const& use, scene::
     scene::Material const& material = *use.instance.material;
     PipelineDesc desc = statesOf(slot, material, raster, &geometry, use.mirrored);
     usePass(desc, material.package.transparency, use.pass);
+    if (slot.isPick && use.pass == prepare::DrawPass::Second) desc.raster.cull = CullMode::Back; // PreparedPick::fronts
     return desc;
 }
 

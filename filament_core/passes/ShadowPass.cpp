@@ -47,7 +47,7 @@ std::span<DrawnMap> drawnMaps(FrameContext const& context) {
 
 ChosenShadow choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap> maps) {
     PipelineSource const& pipelines = context.resources.pipelines;
-    const PassSlot at = shadowSlot(context.settings().quality);
+    const PassSlot at = shadowSlot(context.settings().quality, context.settings().cutsSections);
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "shadow maps are a pass of their own");
     const uint32_t slot = pipelines.slot(at);
     for (DrawnMap& map : maps) {
@@ -101,11 +101,12 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, framegraph::Te
 
 } // namespace
 
-PassSlot shadowSlot(Quality const& quality) {
+PassSlot shadowSlot(Quality const& quality, bool cutsSections) {
     PassSlot slot{ .layout = { .depthFormat = Format::D32F },
                    .shading = depthShadingKey(quality.coloredShadows),
                    .depthOnly = true,
-                   .isShadowMap = true };
+                   .isShadowMap = true,
+                   .cutsSections = cutsSections };
     slot.layout.subpasses[0].colorMask = 0;
     return slot;
 }

@@ -90,6 +90,7 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
              .lodPixels = std::clamp(view.lod.pixels, 0.0f, LevelsOfDetail::kMostPixels),
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
+             .section = view.section,
              .quality = view.quality,
              .effects = effects,
              .display = displayOf(view.display),
@@ -132,6 +133,7 @@ FrameSettings resolve(ViewInput const& main) {
     // Occluders are tested at the centres of pixels: with more samples a pixel they may leave some of them open.
     const bool isSampledOnce = settings.samples == 1 && settings.quality.antiAliasing != AntiAliasing::Sraa;
     settings.cullsOccluded = main.occlusionCulling && isImage && isSampledOnce && isPrecise;
+    settings.cutsSections = main.section.isUsed();
     settings.cullsCasters = main.occlusionCulling && main.quality.cameraRelative;
     return settings;
 }

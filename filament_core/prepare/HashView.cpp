@@ -83,6 +83,10 @@ uint64_t hashVersions(scene::ContentVersions const* versions, scene::Geometry co
 uint64_t hashDepthInputs(scene::MaterialInstance const& instance, shader::FrameUniforms const& frame, bool isColored,
                          scene::ContentVersions const* versions, uint64_t seed) {
     shader::MaterialPackage const& package = instance.material->package;
+    if (package.sectionPlanes) {
+        seed = hashBytes(std::as_bytes(std::span(frame.sectionPlanes)), seed);
+        seed = hashBytes(std::as_bytes(std::span(&frame.section, 1)), seed);
+    }
     if (!package.depthReadsParameters && !(isColored && shader::transmitsLight(package))) return seed;
     seed = hashBytes(instance.parameters, seed);
     for (scene::TextureBinding const& bound : instance.textures)

@@ -93,8 +93,13 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
                         lastEffects == settings.effects && last.visibleLayers == view.visibleLayers &&
                         last.lodPixels == view.lodPixels;
     if (!isSame || packet.motionView != kNowhere || packet.mainView().counts.fadingLevels > 0) return false;
-    if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
-    const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };
+    const bool isSameSection = last.section == view.section;
+    const bool isSameTime = last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals;
+    if (isSameTime && isSameSection) return true;
+    const auto readsFrame = [&](DrawCall const& draw) {
+        shader::MaterialPackage const& package = draw.material->material->package;
+        return (package.readsFrame && !isSameTime) || (package.sectionPlanes && !isSameSection);
+    };
     ViewPacket const& main = packet.mainView();
     return std::ranges::none_of(main.opaque, readsFrame) && std::ranges::none_of(main.blended, readsFrame);
 }

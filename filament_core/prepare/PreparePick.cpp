@@ -94,6 +94,17 @@ std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, s
     return all.first(kMostCandidates);
 }
 
+/// As many as there is room for.
+std::span<const uint32_t> frontsOf(Arena& arena, std::span<const PickCandidate> candidates,
+                                   SectionPlanes const& section) {
+    if (!section.isUsed() || !section.caps) return {};
+    const auto fronts = arena.array<uint32_t>(candidates.size());
+    size_t count = 0;
+    for (uint32_t i = 0; i < candidates.size() && candidates.size() + count < kMostCandidates; ++i)
+        if (candidates[i].draw.material->material->package.sectionPlanes) fronts[count++] = i;
+    return fronts.first(count);
+}
+
 } // namespace
 
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
@@ -114,14 +125,20 @@ PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.kind = ViewKind::Depth; // nothing is lit
     writeFrameUniforms(packet.uniforms, space, reversed, scene);
     packet.objects = prepared.packet.objects;
-    const auto draws = arena.array<DrawCall>(candidates.size());
+    const std::span<const uint32_t> fronts = frontsOf(arena, candidates, view.section);
+    const auto draws = arena.array<DrawCall>(candidates.size() + fronts.size());
     const auto renderables = arena.array<uint32_t>(candidates.size());
     for (size_t i = 0; i < candidates.size(); ++i) {
         draws[i] = candidates[i].draw;
         renderables[i] = candidates[i].renderable;
     }
+    for (size_t i = 0; i < fronts.size(); ++i) {
+        DrawCall& front = draws[candidates.size() + i];
+        front = candidates[fronts[i]].draw;
+        front.pass = DrawPass::Second;
+    }
     packet.opaque = draws;
-    PreparedPick pick{ .renderables = renderables };
+    PreparedPick pick{ .renderables = renderables, .fronts = fronts };
     pick.packet.views = packets;
     pick.packet.settings = settings;
     pick.packet.deformations = placeDeformations(arena, scene, std::span(&prepared.visible, 1));
@@ -136,6 +153,34 @@ PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float dep
     const double aspect = static_cast<double>(size.x) / size.y;
     const double3 view = camera.viewFromPicture(centerOf(pixel, size), distance, aspect);
     return { distance, double3(camera.worldFromView * double4(view, 1)) };
+}
+
+// shaders/material/surface/section.glsl has the same in floats.
+std::optional<PickedPoint> pickedCap(SectionPlanes const& section, Camera const& camera, PickedPoint const& point) {
+    constexpr double kEndless = 1e300;
+    const double3 eye = camera.position(), forward = -double3(camera.worldFromView[2]);
+    const bool isParallel = camera.lens.isOrthographic();
+    const double3 along = isParallel ? forward : glm::normalize(point.positionWorld - eye);
+    const bool isCorner = section.cut == SectionCut::Corner;
+    double entry = isCorner ? -kEndless : kEndless, leaves = kEndless;
+    bool exists = false;
+    for (double4 const& plane : section.planes) {
+        if (!SectionPlanes::isPlane(plane)) continue;
+        const double slope = dot(double3(plane), along);
+        const double back = (dot(double3(plane), point.positionWorld) + plane.w) / slope;
+        const bool beginsBehind = isParallel ? slope > 0 : dot(double3(plane), eye) + plane.w < 0;
+        if (beginsBehind && slope > 0) {
+            entry = isCorner ? std::max(entry, back) : std::min(entry, back);
+            exists = true;
+        } else if (isCorner && !beginsBehind) {
+            leaves = slope < 0 ? std::min(leaves, back) : -kEndless;
+        }
+    }
+    if (!exists || (isCorner && !(leaves > entry && leaves + entry > 0))) return {};
+    const double3 cap = point.positionWorld - along * entry;
+    const double distance = dot(cap - eye, forward);
+    if (distance < static_cast<double>(camera.lens.nearMeters)) return {};
+    return PickedPoint{ distance, cap };
 }
 
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable) {

@@ -11,6 +11,9 @@
 #include "filament_core/prepare/PrepareView.h"
 
 #include <filament_core/Objects.h>
+#include <filament_core/SectionPlanes.h>
+
+#include <optional>
 
 namespace filament_core::prepare {
 
@@ -18,7 +21,10 @@ inline constexpr uint32_t kMostCandidates = 4096;
 
 struct PreparedPick {
     FramePacket packet;
-    std::span<const uint32_t> renderables; ///< of each draw: its position in the scene
+    std::span<const uint32_t> renderables; ///< of each draw but those of `fronts`: its position in the scene
+    /// Draws after these, of front faces alone: of which candidate. What section planes cut shows a cap where its back
+    /// faces are nearer.
+    std::span<const uint32_t> fronts;
 };
 
 /// `last`: the levels of detail that the last frame drew.
@@ -31,6 +37,10 @@ struct PickedPoint {
     double3 positionWorld{ 0.0 };
 };
 PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float depth);
+
+/// The same on the cap that is seen where the ray to `point`, on a back face, enters what `section` leaves; none: it
+/// enters nowhere before that, or only in front of the near plane.
+std::optional<PickedPoint> pickedCap(SectionPlanes const& section, Camera const& camera, PickedPoint const& point);
 
 /// Among the renderables of its node, in the order in which they were added; 0 without a node.
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable);

@@ -151,6 +151,7 @@ private:
                          .clipFromView = fitted.clipFromView,
                          .timeSeconds = mView.timeSeconds,
                          .materialGlobals = mView.materialGlobals,
+                         .section = mView.section,
                          .quality = mView.quality,
                          .visibleLayers = mView.visibleLayers };
         input.quality.depthRange = DepthRange::Reversed;

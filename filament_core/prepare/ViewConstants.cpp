@@ -98,6 +98,34 @@ void writeFog(shader::FrameUniforms& frame, ViewInput const& view, double3 camer
     frame.fogVariation = float4(fog.noiseAmplitude, fog.noiseOctaves, 0, 0);
 }
 
+/// Planes relative to the camera, the signed distance of which is exact to a float wherever both are: in double
+/// precision until then. The planes that cut come first.
+void writeSection(shader::FrameUniforms& frame, SectionPlanes const& section, double3 camera) {
+    frame.sectionPlanes = {};
+    frame.section = frame.sectionCap = frame.sectionHatch = frame.sectionHatchColor = float4(0);
+    uint32_t count = 0;
+    for (double4 const& plane : section.planes) {
+        if (!SectionPlanes::isPlane(plane)) continue;
+        const double4 unit = plane / glm::length(double3(plane));
+        frame.sectionPlanes[count++] =
+                float4(float3(unit), static_cast<float>(glm::dot(double3(unit), camera) + unit.w));
+    }
+    if (count == 0) return;
+    frame.section = float4(count, section.cut == SectionCut::Corner ? 1 : 0, section.caps ? 1 : 0, 0);
+    frame.sectionCap = glm::clamp(section.capColor, 0.0f, 1.0f);
+    frame.sectionHatchColor = float4(glm::clamp(section.hatchColor, 0.0f, 1.0f), 0);
+    const double meters = std::min(static_cast<double>(section.hatchMeters), 1e6);
+    if (!(meters > 0)) return;
+    // Sheets along (1, 1, 1) or (1, -1, 1): at 45 degrees on planes along the axes, `meters` apart.
+    const double scale = 1 / (meters * std::sqrt(2.0));
+    const auto phase = [&](double y) {
+        const double place = (camera.x + y * camera.y + camera.z) * scale;
+        return static_cast<float>(place - std::floor(place));
+    };
+    frame.sectionHatch =
+            float4(static_cast<float>(scale), phase(1), phase(-1), glm::clamp(section.hatchWidth, 0.0f, 1.0f));
+}
+
 } // namespace
 
 ViewSpace makeViewSpace(ViewInput const& view) {
@@ -154,6 +182,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     ContactShadows const& contact = view.effects.contactShadows;
     frame.contactShadows = float4(contact.distanceMeters, contact.thicknessMeters, contact.steps, 0);
     writeFog(frame, view, space.cameraWorld, static_cast<bool>(light.specular));
+    writeSection(frame, view.section, space.cameraWorld);
 }
 
 } // namespace filament_core::prepare

@@ -56,6 +56,7 @@ struct ViewInput {
     float lodPixels = 0; ///< View::lod, of the image that is made; [0, 64]
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
+    SectionPlanes section{};                 ///< View::section
     Quality quality{};
     Effects effects{}; ///< within their ranges
     DisplaySettings display{};

@@ -63,6 +63,7 @@ private:
         if (!path) return path.error();
         GltfLoadOptions options = model.options;
         options.simplified |= mContents.view.lod.pixels > 0;
+        options.sectionPlanes |= mContents.view.section.isUsed();
         return loadGltf(mEngine, *path, options);
     }
 

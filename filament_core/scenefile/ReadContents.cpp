@@ -107,6 +107,7 @@ void readView(JsonReader& reader, SceneFileContents& scene) {
     readSamples(reader, view.samples);
     reader.read("occlusionCulling", view.occlusionCulling);
     reader.read("lod.pixels", view.lod.pixels, 0, static_cast<double>(LevelsOfDetail::kMostPixels));
+    readOptions(reader, view.section);
     readOptions(reader, view.display);
     reader.read("look", scene.look);
     reader.choice("debugView", view.debugView, enumNames<DebugView>());

@@ -176,6 +176,7 @@ void writeView(Json& tree, View const& view, View const& defaults) {
         if (view.debugView != defaults.debugView) object["debugView"] = toString(view.debugView);
         object.erase("layers");
         if (view.visibleLayers != defaults.visibleLayers) object["layers"] = bitsJson(view.visibleLayers);
+        putOptions(object, view.section, defaults.section);
         putOptions(object, view.display, defaults.display);
     });
     within(tree, "quality", [&](Json& object) { putOptions(object, view.quality, defaults.quality); });

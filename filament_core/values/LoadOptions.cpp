@@ -23,6 +23,7 @@ std::span<const Option> optionsOf<GltfLoadOptions>() {
         option("compressedTextures", &O::compressedTextures,
                "Textures of BC7 [stay compressed](textures.md#compressed-on-the-device) where that shows the same "
                "bits."),
+        option("sectionPlanes", &O::sectionPlanes, "[Section planes](sections.md) of the view cut the model open."),
         option("textureBudgetMegabytes", &O::textureBudgetMegabytes, { 0, 1 << 20, "megabytes" },
                "[Streams](texture-streaming.md) textures within this budget. 0: all levels are on the device."),
         option("filesFromAnywhere", &O::filesFromAnywhere,

@@ -56,6 +56,13 @@ constexpr Contradiction kContradictions[] = {
       "sizedPoints", "sizedPoints needs positions in space; leave out vertexDomain : device" },
     { [](MaterialDefinition const& d) { return d.sizedPoints && d.wideLines; }, "sizedPoints",
       "a mesh holds points or lines; leave out sizedPoints or wideLines" },
+    { [](MaterialDefinition const& d) { return d.package.sectionPlanes && isPost(d); }, "sectionPlanes",
+      "section planes cut surfaces of the scene; leave out domain : postprocess" },
+    { [](MaterialDefinition const& d) {
+         return d.package.sectionPlanes &&
+                (d.package.vertexDomain == VertexDomain::View || d.package.vertexDomain == VertexDomain::Device);
+     },
+      "sectionPlanes", "section planes are in the world; leave out vertexDomain, or set object or world" },
     { [](MaterialDefinition const& d) {
          return d.find("blendFunction") != nullptr && d.package.blending != Blending::Custom;
      },

@@ -124,6 +124,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, needs.tangent, "NEEDS_TANGENT");
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) defineIf(out, (needs.terms & termBit(i)) != 0, members[i].term);
+    defineIf(out, package.sectionPlanes, "HAS_SECTION_PLANES");
     defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
     defineIf(out, needs.clipSpacePosition, "HAS_CLIP_SPACE_POSITION");
     defineIf(out, !needs.callsPrepare && package.shading != ShadingModel::Unlit, "PREPARE_AFTER_MATERIAL");
@@ -370,6 +371,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     }
     declareMaterialInputs(out, definition);
     if (needs.colors) done = out.include("shaders/lib/color.glsl");
+    if (done && definition.package.sectionPlanes) done = out.include("shaders/material/surface/section_api.glsl");
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
     if (done) done = out.include("shaders/material/surface/fragment_api.glsl");
     if (done && definition.package.hasTextures()) done = out.include("shaders/material/surface/texture_bias.glsl");
@@ -381,6 +383,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
 /// The author's code of a surface, and where its points are.
 Result<void> surfaceBlock(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
     Result<void> done = authorsBlock(out, definition, needs, true);
+    if (done && definition.package.sectionPlanes) done = out.include("shaders/material/surface/section.glsl");
     const bool movesDepth = needs.has("HAS_PIXEL_DEPTH_OFFSET");
     return done && movesDepth ? out.include("shaders/material/surface/depth_offset.glsl") : done;
 }
@@ -491,7 +494,7 @@ Result<std::string> postFragment(MaterialDefinition const& definition, MaterialN
 
 bool fragmentsDecideDepth(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     return definition.package.blending == Blending::Masked || needs.words.contains("discard") ||
-           castsThroughDither(definition) || needs.has("HAS_PIXEL_DEPTH_OFFSET");
+           castsThroughDither(definition) || needs.has("HAS_PIXEL_DEPTH_OFFSET") || definition.package.sectionPlanes;
 }
 
 uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage) {

@@ -198,6 +198,9 @@ constexpr std::pair<std::string_view, std::string_view> kMeanings[] = {
     { "getColor", "the colour of the vertices" },
     { "getUV0", "the first texture coordinates" },
     { "getUV1", "the second texture coordinates" },
+    { "isSectionCap",
+      "whether the fragment closes a solid that a section plane cuts, with `sectionPlanes : true`; of such a fragment "
+      "the base colour alone counts" },
     { "getMaskThreshold", "the threshold of `blending : masked`" },
     { "getNormalizedPhysicalViewportCoord", "the place in the target, [0, 1], with y down, and the depth" },
     { "getNormalizedViewportCoord",

@@ -189,7 +189,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     if (Result<void> complete = checkBlocks(definition, needs, fragment, vertex); !complete) return complete.error();
 
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
-    needs.worldPosition = isLit || definition.package.shadowMultiplier ||
+    needs.worldPosition = isLit || definition.package.shadowMultiplier || definition.package.sectionPlanes ||
                           mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
                                                   "getWorldReflectedVector", "getNdotV" });
     needs.normal = isLit || definition.needsAttribute(kAttributeTangents);

@@ -318,6 +318,8 @@ constexpr std::array kProperties{
     property<&MaterialPackage::depthCulling>("depthCulling", "what is behind other surfaces is not drawn"),
     property<&MaterialPackage::doubleSided>(
             "doubleSided", "back faces are lit as front faces; where it is given, instances can change it"),
+    property<&MaterialPackage::sectionPlanes>(
+            "sectionPlanes", "the [section planes](sections.md) of a view cut it, and caps close what is solid"),
     property<&MaterialPackage::alphaToCoverage>(
             "alphaToCoverage", "with several samples a pixel, alpha is the share of them that is covered"),
     property<&MaterialPackage::reflections>("reflections", "`screenspace`: the surface reflects the picture"),

@@ -118,6 +118,13 @@ struct FrameUniforms {
                                  ///< panorama's; w: height of that one. exposure.z: radius of the dome
     float4 jitter;               ///< xy: by which clipFromWorld moves the image, times w of clip coordinates; z:
                                  ///< metres from which on transparencyWeight() falls; w: pixels of the guard band
+    // What follows exists in materials with `sectionPlanes` alone:
+    std::array<float4, 6> sectionPlanes; ///< of View::section; xyz: unit, w: signed distance of the camera, metres
+    float4 section;           ///< x: count of planes; y: 1: SectionCut::Corner; z: 1: with caps; w: unused
+    float4 sectionCap;        ///< rgb: base colour of caps; a: its share
+    float4 sectionHatch;      ///< x: hatching lines a metre, 0: none; y, z: the camera between two sheets of the first
+                              ///< and of the second direction; w: share of a line
+    float4 sectionHatchColor; ///< rgb; w: unused
 };
 
 // ---- PassUniforms

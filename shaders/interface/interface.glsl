@@ -51,6 +51,13 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 contactShadows;
     vec4 skyGround;
     vec4 jitter;
+#if defined(HAS_SECTION_PLANES)
+    vec4 sectionPlanes[6];
+    vec4 section;
+    vec4 sectionCap;
+    vec4 sectionHatch;
+    vec4 sectionHatchColor;
+#endif
 } frameUniforms;
 
 struct ObjectRecord {

@@ -24,6 +24,9 @@ const int kViewCoverage = 38;
 // Numbers of triangles are in two parts, which half floats hold: debug_edges.mat.
 const int kTriangleStep = 2048;
 
+// Not a DebugView: the depth of caps alone, as depth buffers have it (passes/SectionDepthPass.h).
+const int kViewCapDepth = 63;
+
 // Added to the view of surfaces whose numbers are wanted, in full floats, not their colours.
 const int kViewNumbers = 64;
 

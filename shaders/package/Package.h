@@ -152,6 +152,7 @@ struct MaterialPackage {
     bool shadowMultiplier = false, transparentShadow = false;
     bool depthReadsParameters = false; ///< depth is not that of the mesh alone: vertex block, mask, discard, offset
     bool readsFrame = false;           ///< its code reads the time or globals of the view
+    bool sectionPlanes = false;        ///< View::section cuts it
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
     uint32_t requiredAttributes = 0; ///< bit n: the material reads AttributeLocation n; skins are not included

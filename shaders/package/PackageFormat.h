@@ -26,6 +26,9 @@ inline constexpr uint32_t kSectionLayout = tag("LAYT");
 inline constexpr uint32_t kSectionCode = tag("CODE");
 inline constexpr uint32_t kSectionVariants = tag("VARI");
 
+/// Of the filtered variants, where it is no VariantBit: MaterialPackage::sectionPlanes.
+inline constexpr uint16_t kSectionPlanesFlag = 1 << 15;
+
 inline constexpr uint32_t kMaxParameters = 1024;
 inline constexpr uint32_t kMaxConstants = 1024;
 inline constexpr uint32_t kMaxTerms = 64;

@@ -107,7 +107,9 @@ bool readGeneral(ByteReader in, MaterialPackage& out) {
     out.featureLevel = in.u8();
     const bool state = models && readBlending(in, out) && readRaster(in, out) && readFlags(in, out);
     out.maskThreshold = in.f32();
-    out.filteredVariants = in.u16();
+    const uint16_t variants = in.u16();
+    out.filteredVariants = variants & static_cast<uint16_t>(~format::kSectionPlanesFlag);
+    out.sectionPlanes = (variants & format::kSectionPlanesFlag) != 0;
     out.requiredAttributes = in.u32();
     out.uniformBytes = in.u32();
     const bool level = out.featureLevel >= 1 && out.featureLevel <= 3;

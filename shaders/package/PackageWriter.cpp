@@ -79,7 +79,7 @@ ByteWriter generalSection(MaterialPackage const& package) {
            package.depthReadsParameters, package.readsFrame })
         out.u8(flag);
     out.f32(package.maskThreshold);
-    out.u16(package.filteredVariants);
+    out.u16(static_cast<uint16_t>(package.filteredVariants | (package.sectionPlanes ? format::kSectionPlanesFlag : 0)));
     out.u32(package.requiredAttributes);
     out.u32(package.uniformBytes);
     return out;

@@ -19,6 +19,22 @@ class FogDensityEdit final : public FrameEdit {
     }
 };
 
+class SectionShiftEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, sectionPlanes) + 3 * sizeof(float);
+        writeFloat(bytes, at, readFloat(bytes, at) + 0.02f);
+    }
+};
+
+class SectionHatchEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, sectionHatch);
+        writeFloat(bytes, at, readFloat(bytes, at) * 1.02f);
+    }
+};
+
 class FogGlowEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
         Bytes& bytes = copy(command.bytes);
@@ -281,6 +297,8 @@ constexpr Mutation kEffectMutations[] = {
     { "gatheredWeight", "frames count half as much in the accumulated image", make<AccumulationWeightEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
+    { "sectionShift", "the first section plane 2 cm beside its place", make<SectionShiftEdit> },
+    { "sectionHatch", "hatching lines of sections 2 % closer", make<SectionHatchEdit> },
     { "skyGround", "the camera of the panorama 3 % higher above its ground", make<SkyGroundEdit> },
     { "fieldShift", "irradiance fields a quarter of each box beside their places", make<FieldShiftEdit> },
     { "probeShift", "a reflection probe 2 cm beside its place", make<ProbeShiftEdit> },

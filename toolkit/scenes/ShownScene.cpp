@@ -76,6 +76,7 @@ Result<void> SceneLoader::loadModel(ShownScene& shown, SceneSpec const& spec, Gl
     if (!path) return path.error();
     GltfLoadOptions used = options;
     used.simplified |= spec.view.lod.pixels > 0;
+    used.sectionPlanes |= spec.view.section.isUsed();
     Result<std::shared_ptr<Model>> model = load(mModels, *path, used, [](auto&... a) { return loadGltf(a...); });
     if (!model) return model.error();
     shown.model = std::move(*model);

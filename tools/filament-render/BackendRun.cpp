@@ -168,6 +168,7 @@ Result<void> Stage::loadMaterial(BackendRun& run, std::filesystem::path const& p
 Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path) {
     GltfLoadOptions modelOptions = mOptions.modelOptions;
     modelOptions.simplified |= mOptions.view.lod.pixels > 0;
+    modelOptions.sectionPlanes |= mOptions.view.section.isUsed();
     modelOptions.progress = progressOf(run.backend, "model");
     Result<Model> loaded = loadGltf(mEngine, path, modelOptions);
     if (!loaded) return loaded.error();

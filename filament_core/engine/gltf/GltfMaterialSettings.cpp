@@ -280,6 +280,23 @@ GltfMaterialSettings settingsOf(MaterialData const& material, GltfVertices const
     return all;
 }
 
+void useSections(GltfMaterialSettings& settings) {
+    constexpr std::string_view kGltf = "gltf_", kLit = "lit_", kOpaque = "_opaque";
+    std::string_view rest = std::string_view(settings.package).substr(kGltf.size());
+    std::string package = "gltf_section_";
+    if (rest.starts_with(kLit)) {
+        package += "layered_";
+        rest.remove_prefix(kLit.size());
+    }
+    const bool isOpaque = rest.ends_with(kOpaque) || rest == kOpaque.substr(1);
+    package += rest.substr(0, isOpaque ? rest.size() - kOpaque.size() + 1 : rest.size());
+    if (isOpaque) {
+        package += "masked";
+        settings.parameters.push_back({ "_maskThreshold", -1.0f });
+    }
+    settings.package = std::move(package);
+}
+
 void readParameters(MaterialData const& material, GltfVertices const& vertices, float scale,
                     GltfParameters& parameters) {
     parameters.clear();

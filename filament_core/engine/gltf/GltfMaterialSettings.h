@@ -49,6 +49,10 @@ GltfVertices verticesOf(assets::PrimitiveData const& primitive);
 GltfMaterialSettings settingsOf(assets::MaterialData const& material, GltfVertices const& vertices, float scale = 1,
                                 size_t maxMaps = SIZE_MAX);
 
+/// The package with section planes (GltfLoadOptions::sectionPlanes) in the place of the one of `settings`. There are
+/// fewer of them: that with layers draws what has none, and masked ones draw opaque materials, without holes.
+void useSections(GltfMaterialSettings& settings);
+
 /// The `parameters` of settingsOf() in place of those that are there. Allocates only if they have never been as many.
 void readParameters(assets::MaterialData const& material, GltfVertices const& vertices, float scale,
                     GltfParameters& parameters);

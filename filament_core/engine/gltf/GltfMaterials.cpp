@@ -26,10 +26,11 @@ std::optional<uint32_t> roughnessBound(GltfMaterialSettings const& settings, sha
 
 } // namespace
 
-GltfMaterialChoice GltfMaterials::choiceOf(Engine::Impl const& engine) {
+GltfMaterialChoice GltfMaterials::choiceOf(Engine::Impl const& engine, bool sectionPlanes) {
     const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::LitScreen));
     return { .package = engine.enginePackages(),
-             .maxMaps = engine.stream->info().limits.maxTextureUnits - ofEngine }; // a device has at least 16 in all
+             .maxMaps = engine.stream->info().limits.maxTextureUnits - ofEngine, // a device has at least 16 in all
+             .sectionPlanes = sectionPlanes };
 }
 
 Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
@@ -52,7 +53,8 @@ Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
 
 MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, GltfVertices const& vertices,
                                             float scale) {
-    const GltfMaterialSettings settings = settingsOf(material, vertices, scale, mMaxMaps);
+    GltfMaterialSettings settings = settingsOf(material, vertices, scale, mMaxMaps);
+    if (mHasSections) useSections(settings);
     for (std::string const& map : settings.leftOut) {
         log(Severity::Warning,
             "material '{}': its {} map is left out, because {} samples no more than {} textures a stage", material.name,

@@ -16,11 +16,12 @@ class GltfMaterials {
 public:
     /// `textures[i]` is images[i] of the model after uploading. `ready`: of the model, by readMaterials().
     GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures,
-                  GltfReadyMaterials ready)
+                  GltfReadyMaterials ready, bool hasSections)
             : mEngine(engine), mModel(model), mTextures(textures), mReady(std::move(ready)),
-              mMaxMaps(choiceOf(engine).maxMaps) {}
+              mMaxMaps(choiceOf(engine).maxMaps), mHasSections(hasSections) {}
 
-    static GltfMaterialChoice choiceOf(Engine::Impl const& engine);
+    /// `sectionPlanes`: of GltfLoadOptions.
+    static GltfMaterialChoice choiceOf(Engine::Impl const& engine, bool sectionPlanes = false);
 
     /// `scale`: metres in the file's scene per metre of the mesh; it scales the thickness of volumes.
     MaterialInstance instanceFor(assets::MaterialData const& material, GltfVertices const& vertices, float scale);
@@ -33,6 +34,7 @@ private:
     std::vector<Texture> const& mTextures;
     GltfReadyMaterials mReady; ///< that no instance has yet
     size_t mMaxMaps;
+    bool mHasSections;
     std::map<std::string, Material> mMaterials; ///< by package and constants
 };
 

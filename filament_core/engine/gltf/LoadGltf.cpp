@@ -92,6 +92,7 @@ void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, assets::GltfOptions 
                    GltfMaterialChoice const& choice) {
     if (model.data.imageBasedLight) model.light = assets::environmentFromCube(model.data.imageBasedLight->light, jobs);
     model.materials = readMaterials(model.data, choice, jobs);
+    model.hasSections = choice.sectionPlanes;
     model.bounds = assets::boundsOf(model.data);
     std::vector<assets::MeshData>& meshes = model.data.meshes;
     model.shapes.resize(meshes.size());
@@ -151,7 +152,7 @@ Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLo
     return orOutOfMemory("glTF", path.native(), [&] {
         Engine::Impl& impl = engine.impl();
         return upload(impl, engine::readModel(path, impl.jobs, engine::gltfOptions(impl, options),
-                                              GltfMaterials::choiceOf(impl)));
+                                              GltfMaterials::choiceOf(impl, options.sectionPlanes)));
     });
 }
 
@@ -160,7 +161,7 @@ Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions 
     return orOutOfMemory("glTF", model.name, [&] {
         Engine::Impl& impl = engine.impl();
         return upload(impl, engine::readModel(model.file, impl.jobs, engine::gltfOptions(impl, model, options),
-                                              GltfMaterials::choiceOf(impl)));
+                                              GltfMaterials::choiceOf(impl, options.sectionPlanes)));
     });
 }
 

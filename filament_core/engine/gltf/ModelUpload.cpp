@@ -27,7 +27,7 @@ public:
             : mEngine(engine), mData(std::move(model.data)), mLight(std::move(model.light)),
               mShapes(std::move(model.shapes)), mImages(std::move(model.images)),
               mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
-              mMaterials(mEngine, *mModel, mModel->textures, std::move(model.materials)) {
+              mMaterials(mEngine, *mModel, mModel->textures, std::move(model.materials), model.hasSections) {
         mModel->bounds = model.bounds;
         mModel->name = mData.name;
         mModel->warnings = mData.warnings;

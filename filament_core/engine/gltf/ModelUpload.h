@@ -24,7 +24,8 @@ struct ReadModel {
     assets::ModelData data;
     std::optional<assets::EnvironmentData> light; ///< the image-based light of `data`, baked
     GltfReadyMaterials materials;
-    Box bounds; ///< assets::boundsOf(data)
+    bool hasSections = false; ///< they are those with section planes
+    Box bounds;               ///< assets::boundsOf(data)
     /// What follows from the vertices of a primitive.
     struct Shape {
         scene::MinMax bounds;                ///< scene::boundsOf()

@@ -43,6 +43,7 @@ private:
     void add(uint32_t index, GltfVertices const& vertices) {
         if (!mSeen.try_emplace({ index, vertices }).second) return;
         GltfMaterialSettings settings = settingsOf(materialOf(mModel, index), vertices, 1, mChoice.maxMaps);
+        if (mChoice.sectionPlanes) useSections(settings);
         std::string key = materialKey(settings);
         if (!mKeys.try_emplace(key).second) return;
         OfPackage& package = mPackages[settings.package];

@@ -23,11 +23,12 @@
 
 namespace filament_core {
 
-/// The properties of an engine that select the material of a glTF material. Constant while the engine lives.
+/// The properties of an engine, constant while it lives, and of loading that select the material of a glTF material.
 struct GltfMaterialChoice {
     /// Of an engine material; exact by default. Any thread.
     std::function<std::span<const std::byte>(std::string_view)> package = &shader::engineMaterial;
-    size_t maxMaps = SIZE_MAX; ///< see settingsOf()
+    size_t maxMaps = SIZE_MAX;  ///< see settingsOf()
+    bool sectionPlanes = false; ///< GltfLoadOptions::sectionPlanes, of the model
 };
 
 /// Equal for settings that share a material: the package and its constants.

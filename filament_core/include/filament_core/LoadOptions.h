@@ -39,6 +39,8 @@ struct GltfLoadOptions {
     /// bits of the decoded texels (docs/textures.md). This takes a quarter of the memory and less time to load. Mesa's
     /// CPU drivers decode blocks again whenever a texel is read: frames take longer.
     bool compressedTextures = false;
+    /// True: View::section cuts the model open. Its materials take longer to draw, also where nothing cuts them.
+    bool sectionPlanes = false;
     /// More than 0: of the textures only the mip levels that frames need are on the device, in so many units of 2^20
     /// bytes for all streamed models of the engine (<filament_core/TextureStreaming.h>), [0, 1048576].
     /// 0: all levels are.

@@ -2,8 +2,8 @@
 /// Options: the settings of a view, of lights and of loading by name. Each is described once, and everything else
 /// follows from that description: command lines, scene files, panels, Python and the tables of docs/options.md.
 ///   Names    "bloom.strength", as in `filament-render --set bloom.strength=0.2` and in scene files.
-///   Types    View, whose options are its own and those of Quality, Effects and DisplayTransform; lights; the settings
-///            and the loading of environments and of glTF files.
+///   Types    View, whose options are its own and those of Quality, Effects, DisplayTransform and SectionPlanes;
+///            lights; the settings and the loading of environments and of glTF files.
 ///   Values   words: "on" and "off", the names of an enumeration, or numbers in the C locale, with commas between the
 ///            components of a vector. One number stands for all components.
 ///   Clamping setOption() refuses what lies outside of a range; values that a program writes into a struct itself are
@@ -34,6 +34,7 @@ struct GltfLoadOptions;
 struct PointLight;
 struct Quality;
 struct RectLight;
+struct SectionPlanes;
 struct SpotLight;
 struct SunLight;
 struct TubeLight;
@@ -85,6 +86,8 @@ template <>
 std::span<const Option> optionsOf<Quality>();
 template <>
 std::span<const Option> optionsOf<RectLight>();
+template <>
+std::span<const Option> optionsOf<SectionPlanes>();
 template <>
 std::span<const Option> optionsOf<SpotLight>();
 template <>

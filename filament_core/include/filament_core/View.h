@@ -10,6 +10,7 @@
 #include <filament_core/Options.h>
 #include <filament_core/PostProcess.h>
 #include <filament_core/Quality.h>
+#include <filament_core/SectionPlanes.h>
 
 #include <array>
 #include <cstddef>
@@ -162,6 +163,7 @@ struct View {
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
+    SectionPlanes section{};            ///< planes that cut materials with `sectionPlanes` open
     Layers visibleLayers = kAllLayers;  ///< renderables of other layers are ignored: they cast no shadows, either
     std::optional<Viewport> viewport{}; ///< none: the view covers its target
     /// Drawn over the output; <filament_core/DebugDraw.h>. Until render() returns.

@@ -7,13 +7,22 @@ vec2 mapUv(int set, bool isTransformed, mat3 transform) {
     return isTransformed ? (transform * vec3(uv, 1.0)).xy : uv;
 }
 
+// Caps of sections are inside of the solid, where no texture is.
+vec4 ofSurface(vec4 factor) {
+#if defined(HAS_SECTION_PLANES)
+    return isSectionCap() ? vec4(1.0) : factor;
+#else
+    return factor;
+#endif
+}
+
 vec4 gltfBaseColor() {
     vec4 color = materialParams.baseColorFactor;
-    if (materialConstants_hasVertexColor) color *= getColor();
+    if (materialConstants_hasVertexColor) color *= ofSurface(getColor());
     if (materialConstants_hasBaseColorMap) {
         vec2 uv = mapUv(materialConstants_baseColorUv, materialConstants_baseColorTransform,
                 materialParams.baseColorUvMatrix);
-        color *= texture(materialParams_baseColorMap, uv);
+        color *= ofSurface(texture(materialParams_baseColorMap, uv));
     }
 #if defined(BLEND_MODE_TRANSPARENT) || defined(BLEND_MODE_FADE)
     color.rgb *= color.a; // glTF's colours are not pre-multiplied

@@ -121,7 +121,13 @@ vec4 debugValue(MaterialInputs inputs, float level, int view, bool isNumber) {
 void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
+#if defined(HAS_SECTION_PLANES)
+    section_point = pointOfMesh();
+#endif
     computeShadingGeometry();
+#if defined(HAS_SECTION_PLANES)
+    cutSurface();
+#endif
     float level = debugMipLevel(); // before a discard
     material(inputs);
 #if defined(HAS_PIXEL_DEPTH_OFFSET)
@@ -133,7 +139,17 @@ void main() {
 #if defined(BLEND_MODE_MASKED)
     applyMask(inputs.baseColor);
 #endif
+#if defined(HAS_SECTION_PLANES)
+    applySection(inputs);
+#endif
     int view = int(ofFragment(passUniforms.raster.z));
+#if defined(HAS_SECTION_PLANES)
+    if ((view & (kViewNumbers - 1)) == kViewCapDepth) {
+        if (!section_isCap) discard;
+        fragment_color = vec4(capDepth(), 0.0, 0.0, 1.0);
+        return;
+    }
+#endif
     highp vec4 shown = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
 #if defined(ALPHA_TO_COVERAGE)
     applyCoverage(shown);

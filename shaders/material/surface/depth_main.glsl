@@ -54,6 +54,9 @@ void main() {
 #if defined(DEPTH_RUNS_MATERIAL)
     MaterialInputs inputs;
     initMaterial(inputs);
+#if defined(HAS_SECTION_PLANES)
+    section_point = pointOfMesh();
+#endif
     computeShadingGeometry();
 #if defined(TRANSMITS_DEPTH)
     shading_view = towardsLight();
@@ -61,6 +64,9 @@ void main() {
     material(inputs);
 #if defined(HAS_PIXEL_DEPTH_OFFSET)
     moveSurface(inputs.pixelDepthOffset);
+#endif
+#if defined(HAS_SECTION_PLANES)
+    if (sectionDistance(pointOfMesh()) < 0.0) discard;
 #endif
 #if defined(BLEND_MODE_MASKED)
     if (inputs.baseColor.a < getMaskThreshold()) discard;

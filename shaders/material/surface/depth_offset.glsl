@@ -14,4 +14,7 @@ void moveSurface(highp float offset) {
     gl_FragDepth = clamp(gl_FragCoord.z + (to.z / to.w - from.z / from.w), 0.0, 1.0);
 }
 
+#if defined(HAS_SECTION_PLANES)
+#undef vertex_worldPosition
+#endif
 #define vertex_worldPosition surface_point

@@ -7,7 +7,11 @@ highp vec3 shading_facet;
 highp vec3 shading_right, shading_down;
 
 void computeFacet() {
+#if defined(HAS_SECTION_PLANES)
+    highp vec3 dx = section_right, dy = section_down;
+#else
     highp vec3 dx = dFdx(vertex_worldPosition), dy = dFdy(vertex_worldPosition);
+#endif
     shading_right = dx;
     shading_down = dy;
     highp float largestX = max(max(abs(dx.x), abs(dx.y)), abs(dx.z));

@@ -14,7 +14,13 @@ void takeDerivatives() {
 void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
+#if defined(HAS_SECTION_PLANES)
+    section_point = pointOfMesh();
+#endif
     computeShadingGeometry();
+#if defined(HAS_SECTION_PLANES)
+    cutSurface();
+#endif
 #if defined(HAS_PIXEL_DEPTH_OFFSET)
     moveSurface(0.0); // derivatives are the mesh's: those of relief differ at every step
 #endif
@@ -27,6 +33,9 @@ void main() {
     prepareMaterial(inputs); // the author did not
 #endif
     applyMask(inputs.baseColor);
+#if defined(HAS_SECTION_PLANES)
+    applySection(inputs);
+#endif
 #if defined(BLENDS_IN_ANY_ORDER)
     keepLayer(inputs.baseColor.a);
 #endif

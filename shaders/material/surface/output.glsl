@@ -99,6 +99,11 @@ void applyCoverage(inout highp vec4 color) {
 void writeColor(highp vec4 color) {
 #if defined(ALPHA_TO_COVERAGE)
     applyCoverage(color);
+#if defined(HAS_SECTION_PLANES)
+    gl_SampleMask[0] &= section_samples;
+#endif
+#elif defined(HAS_SECTION_PLANES)
+    gl_SampleMask[0] = section_samples;
 #endif
     fragment_color = color;
 }

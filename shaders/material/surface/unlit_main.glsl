@@ -4,7 +4,13 @@
 void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
+#if defined(HAS_SECTION_PLANES)
+    section_point = pointOfMesh();
+#endif
     computeShadingGeometry();
+#if defined(HAS_SECTION_PLANES)
+    cutSurface();
+#endif
 #if defined(HAS_PIXEL_DEPTH_OFFSET)
     moveSurface(0.0); // as in lit materials
 #endif
@@ -16,6 +22,9 @@ void main() {
     moveSurface(inputs.pixelDepthOffset);
 #endif
     applyMask(inputs.baseColor);
+#if defined(HAS_SECTION_PLANES)
+    applySection(inputs);
+#endif
 #if defined(BLENDS_IN_ANY_ORDER)
     keepLayer(inputs.baseColor.a);
 #endif

@@ -141,7 +141,8 @@ TEST(Options, ErrorsNameTheNearestOptionAndTheRange) {
 TEST(Options, OfAViewAreThoseOfItsMembers) {
     constexpr size_t ownOptions = 4; // samples, occlusionCulling, lod.pixels and debugView
     EXPECT_EQ(optionsOf<View>().size(), optionsOf<Quality>().size() + optionsOf<Effects>().size() +
-                                                optionsOf<DisplayTransform>().size() + ownOptions);
+                                                optionsOf<DisplayTransform>().size() +
+                                                optionsOf<SectionPlanes>().size() + ownOptions);
     View view;
     ASSERT_TRUE(setOption(view, "toneCurve.contrast", "2"));
     EXPECT_EQ(view.display.toneCurve.contrast, 2);

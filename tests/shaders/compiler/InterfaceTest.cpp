@@ -23,7 +23,7 @@ struct Member {
 std::string interfaceText() {
     const auto text = embeddedSource("shaders/interface/interface.glsl");
     EXPECT_TRUE(text);
-    return "#version 450\n" + std::string(text.value_or(""));
+    return "#version 450\n#define HAS_SECTION_PLANES\n" + std::string(text.value_or(""));
 }
 
 /// Reflects a fragment shader that reads every block and texture of the interface.
@@ -107,7 +107,12 @@ TEST_F(Interface, FrameUniformsAgree) {
                           MEMBER(FrameUniforms, fogVariation),
                           MEMBER(FrameUniforms, contactShadows),
                           MEMBER(FrameUniforms, skyGround),
-                          MEMBER(FrameUniforms, jitter) });
+                          MEMBER(FrameUniforms, jitter),
+                          MEMBER(FrameUniforms, sectionPlanes),
+                          MEMBER(FrameUniforms, section),
+                          MEMBER(FrameUniforms, sectionCap),
+                          MEMBER(FrameUniforms, sectionHatch),
+                          MEMBER(FrameUniforms, sectionHatchColor) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 

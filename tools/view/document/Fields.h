@@ -114,7 +114,7 @@ template <> struct Fields<View> {
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
                                              field("visibleLayers", &View::visibleLayers) };
-    static constexpr size_t others = 4; // viewport, debugDraw, postProcess, aov
+    static constexpr size_t others = 5; // viewport, debugDraw, postProcess, aov, section
 };
 template <> struct Fields<GltfLoadOptions> {
     static constexpr auto list = std::tuple{ field("positions", &GltfLoadOptions::positions),
@@ -124,6 +124,7 @@ template <> struct Fields<GltfLoadOptions> {
                                              field("simplified", &GltfLoadOptions::simplified),
                                              field("normalMapRoughness", &GltfLoadOptions::normalMapRoughness),
                                              field("compressedTextures", &GltfLoadOptions::compressedTextures),
+                                             field("sectionPlanes", &GltfLoadOptions::sectionPlanes),
                                              field("textureBudgetMegabytes", &GltfLoadOptions::textureBudgetMegabytes),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress
