@@ -58,10 +58,10 @@ struct Element {
     std::vector<Property> properties{};
 };
 
-enum class Encoding : uint8_t { Text, Little, Big };
+enum class PlyEncoding : uint8_t { Text, Little, Big };
 
 struct Header {
-    Encoding encoding = Encoding::Text;
+    PlyEncoding encoding = PlyEncoding::Text;
     std::vector<Element> elements{};
 };
 
@@ -101,7 +101,8 @@ Result<Header> readHeader(std::string_view& text) {
                 return fail(ErrorCode::Unsupported,
                             "the format is not ascii, binary_little_endian or binary_big_endian "
                             "1.0");
-            if (format != "ascii") header.encoding = format == "binary_big_endian" ? Encoding::Big : Encoding::Little;
+            if (format != "ascii")
+                header.encoding = format == "binary_big_endian" ? PlyEncoding::Big : PlyEncoding::Little;
         } else if (word == "element") {
             if (header.elements.size() == kMostElements)
                 return fail(ErrorCode::Unsupported, "the header has more than {} elements", kMostElements);
@@ -126,11 +127,11 @@ Result<Header> readHeader(std::string_view& text) {
 /// The numbers behind the header.
 class Numbers {
 public:
-    Numbers(std::string_view rest, Encoding encoding) : mRest(rest), mEncoding(encoding) {}
+    Numbers(std::string_view rest, PlyEncoding encoding) : mRest(rest), mEncoding(encoding) {}
 
     /// False: the data ends, or is no number. What is not finite, or no float would hold, is NaN.
     bool read(Number type, double& value) {
-        return mEncoding == Encoding::Text ? readWord(type, value) : readBytes(type, value);
+        return mEncoding == PlyEncoding::Text ? readWord(type, value) : readBytes(type, value);
     }
     size_t left() const { return mRest.size(); }
 
@@ -170,7 +171,7 @@ private:
     T bits() {
         std::array<char, sizeof(T)> bytes; // NOLINT(cppcoreguidelines-pro-type-member-init): copied into
         std::memcpy(bytes.data(), mRest.data(), sizeof(T));
-        if (mEncoding == Encoding::Big) std::ranges::reverse(bytes);
+        if (mEncoding == PlyEncoding::Big) std::ranges::reverse(bytes);
         mRest.remove_prefix(sizeof(T));
         return std::bit_cast<T>(bytes);
     }
@@ -208,7 +209,7 @@ private:
     }
 
     std::string_view mRest;
-    Encoding mEncoding;
+    PlyEncoding mEncoding;
 };
 
 /// Where a property of a vertex goes.
