@@ -254,6 +254,9 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     model.name = options.name;
     model.images = collectImages(content.textures);
     model.materials = std::move(content.textures.materials);
+    model.materialsOfFile.resize(model.materials.size(), kNone);
+    for (uint32_t i = 0; i < newMaterial.size(); ++i)
+        if (newMaterial[i] != kNone) model.materialsOfFile[newMaterial[i]] = i;
     model.imageBasedLight = finishEnvironment(document, std::move(content.environment));
     model.meshes = collectMeshes(document, scene, content.primitives);
     for (MeshData& mesh : model.meshes) {

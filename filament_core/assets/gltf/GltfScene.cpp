@@ -169,7 +169,11 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
                Diagnostics& diagnostics) {
     GltfNode const& source = document.nodes[index];
     const uint32_t mesh = requests.requestFor(source);
-    NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
+    NodeData own{ .name = source.name,
+                  .mesh = mesh,
+                  .morphWeights = scene.meshes[mesh].weights,
+                  .ofFile = index,
+                  .carriesMesh = true };
     std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
     if (source.skin != kNone) {
         // Section 3.7.3.3: the node's own transform does not move a skinned mesh, so it gets a node without parents,
@@ -227,7 +231,8 @@ public:
                                      .isVisible = source.isVisible || !source.isVisibilityAnimated,
                                      .isSelectable = source.isSelectable,
                                      .isHoverable = source.isHoverable,
-                                     .isCoarserLevel = source.isCoarserLevel });
+                                     .isCoarserLevel = source.isCoarserLevel,
+                                     .ofFile = node });
             if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);
             if (isShown && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
             push(source.children, added, isVisible);

@@ -255,6 +255,15 @@ void addMaterials(GlbScene const& scene, Json& root) {
     root["materials"] = std::move(materials);
 }
 
+Json materialJson(MaterialData const& material, Json& root) {
+    TextureWriter textures(root);
+    return materialJson(material, textures, root);
+}
+
+Json textureInfoJson(TextureRef const& reference, Json& root) { return TextureWriter(root).info(reference); }
+
+Json punctualLightJson(LightData const& light) { return lightJson(light); }
+
 void addLights(GlbScene const& scene, Json& root) {
     if (scene.imageBasedLight) {
         root["extensions"]["EXT_lights_image_based"]["lights"] =

@@ -167,6 +167,8 @@ struct NodeData {
     bool isHoverable = true;         ///< of its own
     uint32_t visibleWith = kNone;    ///< a node of a skinned mesh: the one of the file, before this one
     bool isCoarserLevel = false;     ///< MSFT_lod: at first not shown
+    uint32_t ofFile = kNone;         ///< the node of the file that it is, or whose mesh it carries
+    bool carriesMesh = false;        ///< only has the mesh of `ofFile`: an instance, or a skinned mesh
 };
 
 /// MSFT_lod: a thing in several levels of detail.
@@ -187,6 +189,7 @@ struct ModelData {
     std::string name;
     std::vector<Image> images; ///< with full mip chains; RGBA8Srgb or BC7Srgb for colours, RGBA8 or BC7 for data
     std::vector<MaterialData> materials;
+    std::vector<uint32_t> materialsOfFile; ///< of each material, its place in the file; may end before them
     std::vector<MeshData> meshes;
     std::vector<NodeData> nodes;    ///< of the default scene, parents before children
     std::vector<LevelsData> levels; ///< with GltfLevels::All
