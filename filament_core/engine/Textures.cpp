@@ -179,7 +179,7 @@ VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc, engi
     state.vertexCount = desc.vertexCount;
     state.bounds = bounds ? *bounds : scene::boundsOf(state.layout, desc.data);
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Vertex, desc.data, desc.name, holder);
+    state.handle = createBuffer(*this, BufferUsage::Vertex | BufferUsage::TransferSource, desc.data, desc.name, holder);
     return draft.keep();
 }
 
@@ -191,7 +191,7 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc, engine:
     state.format = desc.format;
     state.indexCount = desc.indexCount;
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Index, desc.data, desc.name, holder);
+    state.handle = createBuffer(*this, BufferUsage::Index | BufferUsage::TransferSource, desc.data, desc.name, holder);
     return draft.keep();
 }
 

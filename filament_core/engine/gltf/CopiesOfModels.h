@@ -69,6 +69,7 @@ public:
         const auto found = mCopies.find(root.index());
         return found != mCopies.end() && found->second.root == root ? &found->second : nullptr;
     }
+    CopyOfModel const* find(Node root) const { return const_cast<CopiesOfModels*>(this)->find(root); }
     /// The node with this index was removed, whatever it was.
     void remove(uint32_t node) { mCopies.erase(node); }
 

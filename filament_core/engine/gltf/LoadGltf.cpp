@@ -121,9 +121,21 @@ Result<ReadModel> prepared(Result<assets::ModelData> data, jobs::JobSystem& jobs
 
 } // namespace
 
+Model::Impl::Source sourceAt(std::filesystem::path const& path, assets::FilesFrom files) {
+    std::error_code failed;
+    Model::Impl::Source source{ .path = std::filesystem::absolute(path, failed), .files = files };
+    if (!failed) source.bytes = std::filesystem::file_size(path, failed);
+    if (!failed) source.changedAt = std::filesystem::last_write_time(path, failed).time_since_epoch().count();
+    if (failed) source.path.clear();
+    return source;
+}
+
 Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,
                             assets::GltfOptions const& options, GltfMaterialChoice const& choice) {
-    return prepared(assets::loadGltf(path, jobs, options), jobs, options, choice);
+    Model::Impl::Source source = sourceAt(path, options.files); // first: a later change is noticed
+    Result<ReadModel> read = prepared(assets::loadGltf(path, jobs, options), jobs, options, choice);
+    if (read) read->source = std::move(source);
+    return read;
 }
 
 Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs, assets::GltfOptions const& options,

@@ -2,6 +2,7 @@
 /// Model::Impl: the result of loadGltf, owned until the model is destroyed.
 #pragma once
 
+#include "filament_core/assets/files/PathInside.h"
 #include "filament_core/assets/gltf/Animation.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
@@ -12,6 +13,7 @@
 #include <filament_core/Gltf.h>
 #include <filament_core/Light.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -28,11 +30,14 @@ struct Model::Impl {
         std::string name;
         uint32_t parent = kRoot; ///< into `nodes`, before this one
         double4x4 parentFromNode{ 1.0 };
-        assets::NodePose pose{};      ///< the local transform, decomposed
-        bool isVisible = true;        ///< of its own, at rest
-        bool isSelectable = true;     ///< of its own, at rest
-        bool isHoverable = true;      ///< of its own, at rest
-        uint32_t visibleWith = kRoot; ///< another node that hides it, before this one
+        assets::NodePose pose{};         ///< the local transform, decomposed
+        bool isVisible = true;           ///< of its own, at rest
+        bool isSelectable = true;        ///< of its own, at rest
+        bool isHoverable = true;         ///< of its own, at rest
+        uint32_t visibleWith = kRoot;    ///< another node that hides it, before this one
+        uint32_t ofFile = assets::kNone; ///< the node of the file that it is, or whose mesh it carries
+        bool carriesMesh = false;        ///< assets::NodeData
+        bool isCoarserLevel = false;     ///< assets::NodeData
     };
     struct PartSkin {
         uint32_t node = kRoot;        ///< into `nodes`: the node that the renderables are attached to
@@ -75,6 +80,22 @@ struct Model::Impl {
         std::vector<AnimatedInstance> instances;
     };
 
+    /// What saveGltf() needs to find what the program changed of an instance of a material of the file.
+    struct InstanceOrigin {
+        MaterialInstance instance;
+        uint32_t material = assets::kNone; ///< of the file; none: glTF's default material
+        GltfVertices vertices;
+        float scale = 1;
+        std::vector<backend::TextureHandle> textures; ///< scene::MaterialInstance::textures, as it was loaded
+    };
+    /// Where the file is.
+    struct Source {
+        std::filesystem::path path{}; ///< absolute; empty: the file was in memory
+        uint64_t bytes = 0;           ///< as it was read
+        int64_t changedAt = 0;        ///< when it was written last
+        assets::FilesFrom files = assets::FilesFrom::Folder;
+    };
+
     explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) {}
     ~Impl();
 
@@ -98,6 +119,9 @@ struct Model::Impl {
     std::vector<AnimatedMaterial> animatedMaterials;
     std::vector<assets::CameraData> camerasOfFile;
 
+    Source source;
+    std::vector<InstanceOrigin> origins;
+
     std::vector<std::string> variants, warnings;
     Box bounds;
     std::optional<Environment> environment;
@@ -106,6 +130,7 @@ struct Model::Impl {
     std::vector<LightProfile> profiles;
     std::vector<MorphTargets> morphTargets;
     std::vector<VertexBuffer> vertexBuffers;
+    std::vector<uint32_t> vertexVersions; ///< of these vertices, as they were loaded: scene::ContentVersions
     std::vector<IndexBuffer> indexBuffers;
     std::vector<Material> materials;
     std::vector<MaterialInstance> instances;

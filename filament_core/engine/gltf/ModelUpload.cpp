@@ -33,6 +33,7 @@ public:
         mModel->warnings = mData.warnings;
         mModel->animations = std::move(mData.animations);
         mModel->variants = mData.variants;
+        mModel->source = std::move(model.source);
     }
 
     size_t stepCount() const { return mData.images.size() + mData.meshes.size() + 1; }
@@ -52,6 +53,7 @@ public:
             mModel->profiles.back() = mEngine.createLightProfile(profile.file, profile.name);
         }
         placeNodes();
+        keepOrigins();
         findChangingNodes(*mModel);
         return std::move(mModel);
     }
@@ -204,13 +206,28 @@ private:
         material.instances.push_back({ instance, vertices, scale, std::move(targets) });
     }
 
+    void keepOrigins() {
+        for (const VertexBuffer buffer : mModel->vertexBuffers)
+            mModel->vertexVersions.push_back(mEngine.contentVersions.of(mEngine.vertexBuffers.get(buffer).handle));
+        mModel->origins.reserve(mInstances.size());
+        for (auto const& [key, instance] : mInstances) {
+            const auto& [index, vertices, scale] = key;
+            const bool isOfFile = index < mData.materialsOfFile.size();
+            Model::Impl::InstanceOrigin& origin = mModel->origins.emplace_back();
+            origin = { instance, isOfFile ? mData.materialsOfFile[index] : kNone, vertices, scale, {} };
+            for (scene::TextureBinding const& binding : mEngine.instances.get(instance).textures)
+                origin.textures.push_back(binding.texture);
+        }
+    }
+
     void placeNodes() {
         for (uint32_t i = 0; i < mData.nodes.size(); ++i) {
             assets::NodeData const& node = mData.nodes[i];
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
             mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose, node.isVisible,
                                       node.isSelectable, node.isHoverable,
-                                      node.visibleWith == kNone ? Model::Impl::kRoot : node.visibleWith });
+                                      node.visibleWith == kNone ? Model::Impl::kRoot : node.visibleWith, node.ofFile,
+                                      node.carriesMesh, node.isCoarserLevel });
             if (node.mesh != kNone) placeMesh(node, i);
             for (const uint32_t light : { node.light, node.profiledLight }) {
                 if (light != kNone)

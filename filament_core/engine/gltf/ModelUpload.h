@@ -35,7 +35,11 @@ struct ReadModel {
     };
     std::vector<std::vector<Shape>> shapes;               ///< by mesh and primitive
     std::shared_ptr<const assets::GltfImageStore> images; ///< of textures that are streamed; none: all are whole
+    Model::Impl::Source source{};
 };
+
+/// What `path` is now. An empty path: the file cannot be asked for.
+Model::Impl::Source sourceAt(std::filesystem::path const& path, assets::FilesFrom files);
 
 /// Of the loader, with `progress` of the options. `engine`: the one that will draw the model.
 assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfLoadOptions const& options);

@@ -53,6 +53,7 @@
 #include <filament_core/Renderer.h>
 #include <filament_core/ResolutionController.h>
 #include <filament_core/Result.h>
+#include <filament_core/SaveGltf.h>
 #include <filament_core/Scene.h>
 #include <filament_core/SceneFile.h>
 #include <filament_core/Shares.h>
