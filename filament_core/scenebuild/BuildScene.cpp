@@ -2,7 +2,9 @@
 #include <filament_core/BuildScene.h>
 
 #include "base/OutOfMemory.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/scenebuild/SceneFileParts.h"
+#include "filament_core/scenebuild/SceneFilePasses.h"
 
 #include <filament_core/Animator.h>
 #include <filament_core/Image.h>
@@ -29,8 +31,10 @@ public:
 
     Result<BuiltScene> build() {
         BuiltScene built{ .scene = Scene(mEngine), .view = mContents.view };
+        built.contents = mContents;
         for (const Step step : { &SceneBuilder::addModels, &SceneBuilder::addEnvironment, &SceneBuilder::addLights,
-                                 &SceneBuilder::addProbes, &SceneBuilder::addGrids, &SceneBuilder::setView }) {
+                                 &SceneBuilder::addProbes, &SceneBuilder::addGrids, &SceneBuilder::setView,
+                                 &SceneBuilder::addPasses, &SceneBuilder::addOverlays }) {
             const Result<void> done = (this->*step)(built);
             if (!done) return fail(done.error().code, "{}: {}", mFile.name(), done.error().message);
         }
@@ -76,6 +80,7 @@ private:
                             loaded->animationCount());
             built.models.push_back(std::move(*loaded));
             built.copies.emplace_back();
+            built.places.emplace_back();
             uint64_t nodesOfOne = 0;
             for (SceneFileCopy const& copy : model.copies) {
                 const uint64_t nodes = built.scene.nodeCount();
@@ -94,6 +99,7 @@ private:
         Scene& scene = built.scene;
         double4x4 place = glm::translate(double4x4(1.0), mContents.origin) * copy.worldFromModel;
         if (copy.isFitted) place = place * fitToUnitCube(built.models.back().bounds());
+        built.places.back().push_back(place);
         const Node root = built.copies.back().emplace_back(scene.add(built.models.back(), place));
         if (copy.lightChannels != kDefaultLightChannels) scene.setLightChannels(root, copy.lightChannels);
         scene.setLayers(root, kAllLayers, copy.layers);
@@ -181,9 +187,7 @@ private:
         View& view = built.view;
         view.camera =
                 scenebuild::cameraOf(mContents.camera, mContents.origin, mContents.exposure, built.scene.bounds());
-        if (!mContents.passes.empty())
-            return fail(ErrorCode::Unsupported, "postProcess: '{}' must be compiled: set View::postProcess yourself",
-                        mContents.passes.front().material);
+        built.lastCamera = view.camera;
         built.debug = std::make_unique<DebugDraw>(mContents.debug);
         view.debugDraw = built.debug.get();
         for (std::vector<Node> const& copies : built.copies)
@@ -196,6 +200,39 @@ private:
             view.display.look = std::move(*look);
         }
         return mContents.dirt.empty() ? Result<void>() : loadDirt(built);
+    }
+
+    Result<void> addPasses(BuiltScene& built) {
+        const auto imagePath = [&](std::string const& name) { return pathOf(SceneFileKind::Image, name); };
+        for (SceneFilePass const& pass : mContents.passes) {
+            const Result<fs::path> path = pathOf(SceneFileKind::Pass, pass.material);
+            if (!path) return path.error();
+            const bool isText = path->extension() == ".mat";
+            if (isText && !mOptions.compile)
+                return fail(
+                        ErrorCode::Unsupported,
+                        "postProcess: '{}' is the text of a material: compile it with matc, and name the package, or "
+                        "set SceneBuildOptions::compile",
+                        pass.material);
+            const Result<std::vector<std::byte>> package =
+                    isText ? mOptions.compile(*path) : assets::readFileBytes(*path);
+            if (!package) return package.error();
+            const Result<void> added =
+                    scenebuild::addPass(mEngine, pass, *package, path->stem().string(), imagePath, built);
+            if (!added) return fail(added.error().code, "postProcess: {}", added.error().message);
+        }
+        built.view.postProcess = built.passes;
+        return {};
+    }
+
+    Result<void> addOverlays(BuiltScene& built) {
+        for (SceneFileOverlay const& overlay : mContents.overlays) {
+            View& view = built.overlays.emplace_back(overlay.view);
+            view.camera =
+                    scenebuild::cameraOf(overlay.camera, mContents.origin, mContents.exposure, built.scene.bounds());
+            view.display.look = built.view.display.look;
+        }
+        return {};
     }
 
     Result<void> loadDirt(BuiltScene& built) {

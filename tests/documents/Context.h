@@ -16,7 +16,7 @@
 namespace materials {
 std::span<const std::byte> stone(); // as filament_add_materials() generates it
 std::span<const std::byte> edges();
-}
+} // namespace materials
 
 namespace example {
 using namespace filament_core;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/SceneFileRun.h"
 
+#include "toolkit/materials/MaterialFile.h"
+
 #include <filament_core/BuildScene.h>
 
 namespace filament_core::tools {
@@ -13,6 +15,13 @@ Result<SceneFile> editedFile(Options const& options) {
         if (const Result<void> set = file->set(key, value); !set)
             return fail(set.error().code, "--set {}={}: {}", key, value, set.error().message);
     return file;
+}
+
+/// The package of the text of a material.
+Result<std::vector<std::byte>> compiled(std::filesystem::path const& file) {
+    const Result<std::shared_ptr<const MaterialFile>> material = readMaterialFile(file);
+    if (!material) return material.error();
+    return (*material)->bytes;
 }
 
 Format formatOf(PictureFormat picture, bool isLinear) {
@@ -34,20 +43,20 @@ Result<BackendRun> runSceneFile(Options const& options, Backend backend) {
     engineOptions.backend = backend;
     Result<Engine> engine = Engine::create(engineOptions);
     if (!engine) return engine.error();
-    Result<BuiltScene> built = buildScene(*engine, *file);
+    Result<BuiltScene> built = buildScene(*engine, *file, { .compile = compiled });
     if (!built) return built.error();
     BackendRun run{ .backend = backend, .device = engine->device(), .modelName = file->name() };
     for (Model const& model : built->models)
         run.warnings.insert(run.warnings.end(), model.warnings().begin(), model.warnings().end());
     if (built->environment) run.lights = built->environment->lights();
-    built->view.viewport.reset(); // the image is the view alone
+    const uint2 size = file->contents().target.x > 0 ? file->contents().target : built->view.size;
     const Owned<SwapChain> target =
-            engine->own(engine->create(SwapChainDesc{ .size = built->view.size,
+            engine->own(engine->create(SwapChainDesc{ .size = size,
                                                       .imageCount = 1,
                                                       .format = formatOf(options.format, file->contents().isLinear),
                                                       .name = "scene file" }));
     Renderer renderer(*engine);
-    for (uint32_t i = 0; i < file->contents().frames; ++i) renderer.render(built->scene, built->view, target);
+    drawFrames(*engine, renderer, *built, target);
     Result<Image> image = renderer.waitPixels(renderer.readPixels(target));
     if (!image) return image.error();
     run.image = std::move(*image);

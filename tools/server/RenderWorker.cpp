@@ -48,16 +48,13 @@ int statusOf(ErrorCode code) {
 }
 
 /// Frames before the last give effects over time what they accumulate.
-Result<Image> imageOf(Engine& engine, BuiltScene const& built, SceneFileContents const& contents, ImageFormat format) {
+Result<Image> imageOf(Engine& engine, BuiltScene& built, ImageFormat format) {
     Renderer renderer(engine);
     const bool isLinear = format == ImageFormat::Exr;
-    const Owned<SwapChain> frames = engine.own(engine.create(
-            SwapChainDesc{ .size = built.view.size, .format = isLinear ? Format::RGBA16F : Format::RGBA8 }));
-    View view = built.view;
-    for (uint32_t frame = 0; frame < contents.frames; ++frame) {
-        view.timeSeconds = built.view.timeSeconds - (contents.frames - 1 - frame) * contents.secondsPerFrame;
-        renderer.render(built.scene, view, frames);
-    }
+    const uint2 size = built.contents.target.x > 0 ? built.contents.target : built.view.size;
+    const Owned<SwapChain> frames = engine.own(
+            engine.create(SwapChainDesc{ .size = size, .format = isLinear ? Format::RGBA16F : Format::RGBA8 }));
+    drawFrames(engine, renderer, built, frames);
     return renderer.waitPixels(renderer.readPixels(frames));
 }
 
@@ -73,9 +70,9 @@ Result<Engine*> RenderWorker::engineOf(Backend api) {
 Result<std::vector<std::byte>> RenderWorker::draw(RenderRequest const& request) {
     const Result<Engine*> engine = engineOf(request.api);
     if (!engine) return engine.error();
-    const Result<BuiltScene> built = buildScene(**engine, request.scene, buildOptions(mLimits, request.scene));
+    Result<BuiltScene> built = buildScene(**engine, request.scene, buildOptions(mLimits, request.scene));
     if (!built) return built.error();
-    const Result<Image> image = imageOf(**engine, *built, request.scene.contents(), request.format);
+    const Result<Image> image = imageOf(**engine, *built, request.format);
     if (!image) return image.error();
     const fs::path file = mSpool.doneFolder().parent_path() / fmt::format("worker-{}.image", ::getpid());
     const Result<void> saved = request.format == ImageFormat::Png ? savePng(file, *image) : saveExr(file, *image);
