@@ -7,6 +7,7 @@
 #include "toolkit/materials/PlainMaterials.h"
 #include "toolkit/program/CommandLine.h"
 #include "toolkit/program/Console.h"
+#include "tools/filament-render/GltfFile.h"
 #include "tools/filament-render/HeapCounter.h"
 
 #include <filament_core/Animator.h>
@@ -121,6 +122,9 @@ public:
     Result<void> drawAovs(BackendRun& run);
     Result<void> drawShares(BackendRun& run);
     Result<void> measureCosts(BackendRun& run);
+    Result<void> saveScene(std::filesystem::path const& environment) const {
+        return saveGltfFile(mOptions, mEngine.device().backend, mScene, mView.camera, environment.string());
+    }
     void drawFirst(BackendRun& run);
     void drawOthers(BackendRun& run);
     Result<Image> readPixels() { return mRenderer.waitPixels(mRenderer.readPixels(mTarget)); }
@@ -440,6 +444,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     run.image = std::move(*image);
     if (Result<void> drawn = stage.drawAovs(run); !drawn) return drawn.error();
     if (Result<void> drawn = stage.drawShares(run); !drawn) return drawn.error();
+    if (Result<void> saved = stage.saveScene(environment); !saved) return saved.error();
     run.timings = stage.renderer().takeTimings();
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();

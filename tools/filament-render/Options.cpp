@@ -19,7 +19,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook, saveFrame, skyAltitude, aovs, shares, explainPixel;
+                saveLook, saveGltf, saveFrame, skyAltitude, aovs, shares, explainPixel;
     std::vector<std::string> values, sky;
 };
 
@@ -85,6 +85,7 @@ Result<void> convertThreads(Words const& words, Options& options) {
 
 Result<void> convertBudget(Words const& words, Options& options) {
     options.saveLook = words.saveLook;
+    options.saveGltf = words.saveGltf;
     options.costs = words.costs;
     options.measureCosts = words.measureCosts;
     if (words.budget.empty()) return {};
@@ -208,6 +209,7 @@ void declare(CommandLine& app, Words& words, Options& options) {
                "DIR/API.pixel.json");
     app.option("--save-look", words.saveLook,
                "FILE.cube: write grading, tone mapper and look as a cube for other programs");
+    app.option("--save-gltf", words.saveGltf, "FILE.glb or FILE.gltf: write the scene as glTF for other programs");
     app.flag("--timing", options.timing, "print the time taken by start-up and frames");
     app.flag("--explain", options.explain, "print what ran, what was culled, and why");
     app.flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");

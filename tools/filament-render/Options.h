@@ -48,6 +48,7 @@ struct Options : SceneOptions {
     std::optional<double> budgetMilliseconds; ///< device time of a frame: the quality is chosen to fit
     std::filesystem::path costs;              ///< its cost table; empty: the library's
     std::filesystem::path saveLook;           ///< .cube file for grading and tone mapper; empty: none
+    std::filesystem::path saveGltf;           ///< .glb or .gltf of the scene; empty: none
     std::filesystem::path measureCosts;       ///< file for a new cost table of this scene; empty: none
 };
 

@@ -2,6 +2,7 @@
 #include "tools/filament-render/SceneFileRun.h"
 
 #include "toolkit/materials/MaterialFile.h"
+#include "tools/filament-render/GltfFile.h"
 
 #include <filament_core/BuildScene.h>
 
@@ -62,6 +63,10 @@ Result<BackendRun> runSceneFile(Options const& options, Backend backend) {
     run.image = std::move(*image);
     run.explanation = renderer.explain();
     run.statistics = renderer.statistics();
+    if (Result<void> saved =
+                saveGltfFile(options, backend, built->scene, built->view.camera, file->contents().environment.file);
+        !saved)
+        return saved.error();
     run.errors = engine->takeErrors();
     return run;
 }

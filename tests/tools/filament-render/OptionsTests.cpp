@@ -229,6 +229,8 @@ TEST(Options, AllReachTheirFields) {
                                      "9",
                                      "--trace-jobs",
                                      "jobs.json",
+                                     "--save-gltf",
+                                     "scene.glb",
                                      "--save-frame",
                                      "frame",
                                      "--workers",
@@ -264,6 +266,7 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.copies, 9u);
     EXPECT_EQ(options.traceJobs, "jobs.json");
     EXPECT_EQ(options.saveFrame, "frame");
+    EXPECT_EQ(options.saveGltf, "scene.glb");
     EXPECT_EQ(options.arguments.front(), "a b.glb");
     EXPECT_EQ(options.arguments.back(), "llvm");
     EXPECT_EQ(options.workers, 3);
