@@ -93,9 +93,10 @@ void Scene::set(Light light, LightDesc const& desc) {
 void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {
     const PublicCall call(mImpl, "Scene::setGeometry(Renderable, GeometryDesc)");
     scene::Renderables& renderables = mImpl->changedUses().renderables;
-    scene::Drawable const& drawable = renderables.drawables[renderables.drawable[renderables.index.at(renderable)]];
-    if (drawable.deformation != scene::kNotDeformed)
-        checkDeformation(mImpl->engine, mImpl->data.deformations[drawable.deformation], desc.vertices);
+    const uint32_t at = renderables.index.at(renderable), deformation = scene::deformationAt(renderables, at);
+    scene::Drawable const& drawable = renderables.drawables[renderables.drawable[at]];
+    if (deformation != scene::kNotDeformed)
+        checkDeformation(mImpl->engine, mImpl->data.deformations[deformation], desc.vertices);
     scene::setGeometry(renderables, renderable, mImpl->geometryOf(desc, *drawable.material->material), desc.levels);
     scene::setBounds(mImpl->data, renderable, mImpl->boundsOf(desc));
     mImpl->follow(renderable, desc);

@@ -25,7 +25,7 @@ public:
         if (pipeline != mPipeline) {
             mCommands.record(CmdBindPipeline{ pipeline });
             mPipeline = pipeline;
-            mDeformation = scene::kNotDeformed; // its group does not survive a change of earlier groups
+            mDeformation = {}; // its group does not survive a change of earlier groups
             // Lit, unlit and full-screen programs have different layouts of this group.
             bindPass(draw.material->material->package);
         }
@@ -36,10 +36,7 @@ public:
             mMaterial = material;
         }
         if (draw.material->raster.stencil) bindReferences(*draw.material->raster.stencil);
-        if (draw.deformation != mDeformation && draw.deformation != scene::kNotDeformed) {
-            mCommands.record(mContext.deformations[draw.deformation]);
-            mDeformation = draw.deformation;
-        }
+        if (draw.deformation != scene::kNotDeformed) bindDeformation(mContext.deformations[draw.deformation]);
         bindGeometry(*draw.geometry);
     }
 
@@ -70,6 +67,13 @@ private:
         mPass = group;
     }
 
+    /// Skins of one kind have the same.
+    void bindDeformation(CmdBindGroup const& group) {
+        if (mDeformation.group == group.group && mDeformation.dynamicOffsets == group.dynamicOffsets) return;
+        mCommands.record(group);
+        mDeformation = group;
+    }
+
     void bindReferences(StencilState const& state) {
         const CmdSetStencilReference wanted{ state.front.reference, state.back.reference };
         if (mReferences && mReferences->front == wanted.front && mReferences->back == wanted.back) return;
@@ -94,7 +98,7 @@ private:
     PipelineHandle mPipeline;
     uint32_t mWindow = ~0u, mList = 0;
     BindGroupHandle mPass, mMaterial;
-    uint32_t mDeformation = scene::kNotDeformed;
+    CmdBindGroup mDeformation{};
     std::optional<CmdSetStencilReference> mReferences;
     BufferHandle mVertices, mIndices;
     IndexFormat mIndexType = IndexFormat::UInt16;

@@ -4,6 +4,7 @@
 #include "filament_core/prepare/HashWords.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -20,19 +21,43 @@ constexpr uint32_t kAlignment = 256;
 constexpr size_t kBlocksPerJob = 32;
 constexpr size_t kHeaderWords = offsetof(shader::DeformationUniforms, targets) / sizeof(float4);
 
+/// Of the renderable at position `at`: the items of a range are in the order of the scene.
+bool isSeen(VisibleItems const& view, uint32_t at) {
+    const size_t range = at / kCullRange;
+    const auto items = view.slots.subspan(range * kCullRange, view.firsts[range + 1] - view.firsts[range]);
+    return std::ranges::binary_search(items, at, {}, &SortItem::renderable);
+}
+
 bool isVisible(scene::Renderables const& renderables, Deformation const& deformation,
                std::span<const VisibleItems> views) {
     if (!deformation.renderable) return false;
-    const auto isSeen = [&](uint32_t drawable) {
-        return std::ranges::any_of(views, [&](VisibleItems const& view) {
-            return view.isSeen(drawOf(drawable, false)) || view.isSeen(drawOf(drawable, true));
-        });
-    };
-    // Any level of detail may be the one that is drawn, and all of them have the same bones and weights.
-    uint32_t level = renderables.drawable[renderables.index.at(deformation.renderable)];
-    while (level != scene::kNoLevel && !isSeen(level)) level = renderables.drawables.level(level).coarser;
-    return level != scene::kNoLevel;
+    const uint32_t at = renderables.index.at(deformation.renderable);
+    return std::ranges::any_of(views, [&](VisibleItems const& view) {
+        // Any level of detail may be the one that is drawn, and all of them have the same bones and weights.
+        uint32_t level = renderables.drawable[at];
+        const auto isDrawn = [&] { return view.isSeen(drawOf(level, false)) || view.isSeen(drawOf(level, true)); };
+        while (level != scene::kNoLevel && !isDrawn()) level = renderables.drawables.level(level).coarser;
+        return level != scene::kNoLevel && isSeen(view, at); // others may share the draw
+    });
 }
+
+/// The blocks of skins, which have no weights: one of a kind. A few kinds are remembered; more only repeat blocks.
+class SkinBlocks {
+public:
+    /// Where the block of this kind is; kNowhere: the caller places it at `next`.
+    uint32_t find(uint32_t kind, uint32_t next) {
+        Entry& entry = mEntries[kind % mEntries.size()];
+        if (entry.offset != kNowhere && entry.kind == kind) return entry.offset;
+        entry = { kind, next };
+        return kNowhere;
+    }
+
+private:
+    struct Entry {
+        uint32_t kind = 0, offset = kNowhere;
+    };
+    std::array<Entry, 64> mEntries{};
+};
 
 /// The smallest magnitude of a weight that is kept, and how many of exactly this magnitude are.
 struct Threshold {
@@ -62,7 +87,6 @@ Threshold thresholdOf(std::span<const float> weights) {
 struct Shape {
     Deformation const& deformation;
     std::span<const float> weights;
-    uint32_t firstBone;
     size_t boneCount;
 };
 
@@ -88,9 +112,8 @@ void writeBlock(Shape const& shape, uint32_t boneRoom, std::span<std::byte> bloc
     // The memory is that of an upload, with bytes of earlier frames. What is not written below is uploaded, too.
     std::memset(block.data(), 0, block.size());
     const uint32_t active = writeTargets(shape.weights, words.subspan(kHeaderWords));
-    const bool hasRoom = shape.firstBone + shape.boneCount <= boneRoom;
-    const bool isSkinned = shape.deformation.skin && hasRoom;
-    const glm::uvec4 bones(shape.firstBone, isSkinned ? shape.boneCount - 1 : 0, 0, 0);
+    const bool isSkinned = shape.deformation.skin && shape.boneCount <= boneRoom;
+    const glm::uvec4 bones(isSkinned ? boneRoom - shape.boneCount : 0, isSkinned ? shape.boneCount - 1 : 0, 0, 0);
     words[0] = float4(active, 0, 0, isSkinned ? static_cast<float>(shape.deformation.jointSets) : 0.0f);
     if (scene::MorphTargets const* const morph = shape.deformation.morph) {
         words[0].y = static_cast<float>(morph->texels);
@@ -122,7 +145,9 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     const auto places = arena.arrayForOverwrite<DeformationPlace>(all.size());
     const auto bones = arena.arrayForOverwrite<uint32_t>(skins.size());
     std::ranges::fill(bones, kNowhere);
+    SkinBlocks blocks;
     for (size_t i = 0; i < all.size(); ++i) {
+        const auto slot = static_cast<uint32_t>(i);
         places[i] = {};
         if (!isVisible(scene.renderables, all[i], views)) continue;
         places[i].bones = 0; // without a skin it is not read
@@ -135,8 +160,10 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
             }
             places[i].bones = first;
         }
-        places[i].weights = list.bytes;
-        list.bytes += deformationBlock(all[i].weights);
+        const uint32_t shared = all[i].morph ? kNowhere : blocks.find(scene.deformations.kindOf(slot), list.bytes);
+        places[i].ownsBlock = shared == kNowhere;
+        places[i].weights = places[i].ownsBlock ? list.bytes : shared;
+        if (places[i].ownsBlock) list.bytes += deformationBlock(all[i].weights);
         if (all[i].morph) places[i].deltas = all[i].morph->deltas;
     }
     list.places = places;
@@ -167,11 +194,11 @@ void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, uint3
         for (size_t i = begin; i < end; ++i) {
             DeformationPlace const& place = list.places[i];
             Deformation const& now = list.deformations[i];
-            if (place.weights == kNowhere) continue;
+            if (!place.ownsBlock) continue;
             const size_t bones = now.skin ? list.skins[now.skin.index()].bones.size() : 0;
-            put(place.weights, { now, now.weights, place.bones, bones });
-            if (place.lastWeights != kNowhere)
-                put(place.lastWeights, { now, list.last[i].weights, place.lastBones, bones });
+            put(place.weights, { now, now.weights, bones });
+            if (place.lastWeights != kNowhere && place.lastWeights != place.weights)
+                put(place.lastWeights, { now, list.last[i].weights, bones });
         }
     });
 }

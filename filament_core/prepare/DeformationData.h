@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Bones and morph weights of visible objects in the form that the vertex stage reads: rows of a texture, in which the
-/// bones of all visible skins follow each other, and a buffer, in which every visible deformation has a block that says
-/// which bones and weights it has; draws bind windows of it.
+/// bones of all visible skins follow each other, and a buffer, in which every visible deformation with morph targets
+/// has a block with its weights, and all skins of one kind share a block; draws bind windows of it. Where the bones of
+/// an object begin is in its ObjectData, so that instances of one draw have poses of their own.
 ///   In      the deformations of the scene, and which draws culling has seen in each view.
 ///   Out     where each skin and block begins; the functions that write fill the memory of the upload commands.
 ///   Thread  placeDeformations(): the app thread. writeBones(), writeDeformations(): jobs over skins and blocks.

@@ -56,8 +56,9 @@ uint32_t countDraws(std::span<const SortItem> items, size_t begin, size_t end) {
     return count;
 }
 
-DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first, size_t end) {
-    scene::Drawable const& drawable = drawables[drawableOf(draw)];
+DrawCall drawCall(scene::Renderables const& renderables, std::span<const SortItem> items, size_t first, size_t end) {
+    const uint32_t draw = items[first].draw;
+    scene::Drawable const& drawable = renderables.drawables[drawableOf(draw)];
     return { drawable.material,
              &drawable.geometry,
              static_cast<uint32_t>(first),
@@ -65,7 +66,7 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              isMirrored(draw),
              drawable.properties,
              isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only,
-             drawable.deformation,
+             scene::deformationAt(renderables, items[first].renderable),
              fadeOf(draw) };
 }
 
@@ -76,13 +77,13 @@ void widen(AnyOrderExtent& extent, uint32_t depth) {
 }
 
 // Returns the number of triangles in the range.
-uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem> items, size_t begin, size_t end,
+uint64_t writeDraws(scene::Renderables const& renderables, std::span<const SortItem> items, size_t begin, size_t end,
                     DrawCall* draws) {
     uint64_t triangles = 0;
     for (size_t first = begin; first < end;) {
         size_t next = first + 1;
         while (next < end && !startsDraw(items, next)) ++next;
-        *draws = drawCall(drawables, items[first].draw, first, next);
+        *draws = drawCall(renderables, items, first, next);
         const uint64_t drawn = static_cast<uint64_t>(draws->geometry->indexCount / 3) * draws->instanceCount;
         triangles += drawn;
         if (draws->pass == DrawPass::First) {
@@ -164,7 +165,7 @@ size_t drawsBefore(std::span<const DrawCall> draws, size_t item) {
     return static_cast<size_t>(std::ranges::partition_point(draws, isBefore) - draws.begin());
 }
 
-DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
+DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                          std::span<const SortItem> items, ViewCounts& counts) {
     const auto ranges = arena.arrayForOverwrite<RangeDraws>((items.size() + kMergeRange - 1) / kMergeRange);
     jobs::parallelFor<"count draws">(jobs, items.size(), kMergeRange, [&](size_t begin, size_t end) {
@@ -177,7 +178,7 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     jobs::parallelFor<"merge">(jobs, items.size(), kMergeRange, [&](size_t begin, size_t end) {
         RangeDraws& range = ranges[begin / kMergeRange];
         // The counts of all earlier ranges are known: each job writes where its draws will stay.
-        range.triangles = writeDraws(drawables, items, begin, end, draws.data() + range.first);
+        range.triangles = writeDraws(renderables, items, begin, end, draws.data() + range.first);
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 

@@ -58,7 +58,7 @@ struct DrawLists {
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.
 /// Blended neighbours merge too, because instances draw in order. Objects with two passes get two draw calls each.
-DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
+DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                          std::span<const SortItem> items, ViewCounts& counts);
 
 } // namespace filament_core::prepare

@@ -27,14 +27,36 @@
 
 namespace filament_core::prepare {
 
+inline constexpr uint32_t kNowhere = ~0u;
+
+/// Of one deformation: its first bone among those of the frame, and a byte offset into the buffer of the frame;
+/// kNowhere: it is not visible.
+struct DeformationPlace {
+    uint32_t bones = kNowhere, weights = kNowhere;
+    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: unused
+    backend::TextureHandle deltas;                         ///< none: no morph targets
+    bool ownsBlock = false; ///< at `weights`; false: it is that of an earlier deformation of the same kind
+};
+
 /// Where the objects of a view are read from; writeObjects() (ObjectData.h) converts them for the shaders.
 struct ObjectList {
     std::span<const SortItem> order; ///< of drawing
     std::span<const scene::Placement> placements;
     double3 cameraWorld{ 0.0 };
+    std::span<const uint32_t> deformations{};   ///< by renderable: into `places`
+    std::span<const DeformationPlace> places{}; ///< of the frame; none: nothing is deformed
+    bool hasLastFrames = false;                 ///< odd renderables are as in the last frame (PrepareMotion.h)
 
     size_t size() const { return order.size(); }
     bool empty() const { return order.empty(); }
+    /// ObjectData::flags.w
+    float firstBone(uint32_t renderable) const {
+        const uint32_t slot = places.empty() ? scene::kNotDeformed : deformations[renderable];
+        if (slot == scene::kNotDeformed) return 0;
+        DeformationPlace const& place = places[slot];
+        const uint32_t bones = hasLastFrames && (renderable & 1) != 0 ? place.lastBones : place.bones;
+        return bones == kNowhere ? 0.0f : static_cast<float>(bones);
+    }
 };
 
 /// What a material with two passes (materials guide, 4.2.18) draws: depth, then colour; or back faces, then front
@@ -51,20 +73,10 @@ struct DrawCall {
     bool mirrored = false;
     scene::DrawProperties properties{};
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
-    uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
+    uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places: that of the first object
     LevelFade fade = 0; ///< of all instances; the depth prepass says which pixels show them (passes/DepthPass.h)
     /// Into FramePacket::fields(): that of the first object, the others follow; kNowhere: the environment lights them.
     uint32_t firstField = ~0u;
-};
-
-inline constexpr uint32_t kNowhere = ~0u;
-
-/// Of one deformation: its first bone among those of the frame, and a byte offset into the buffer of the frame;
-/// kNowhere: it is not visible.
-struct DeformationPlace {
-    uint32_t bones = kNowhere, weights = kNowhere;
-    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: unused
-    backend::TextureHandle deltas;                         ///< none: no morph targets
 };
 
 /// What a deformation was like in the last frame.
@@ -225,7 +237,7 @@ struct FramePacket {
     ProbePacket probes; ///< of the main view
     GridPacket grids;   ///< of the main view
     /// Of debug views of numbers, in the place of the fields of `grids`: the objects of the main view, each by itself;
-    /// object.flags.w is its number. DrawCall::firstField counts into it.
+    /// center.w is its number. DrawCall::firstField counts into it.
     std::span<const shader::IrradianceField> numbered;
     SceneDemand demand; ///< of the main view
 

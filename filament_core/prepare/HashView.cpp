@@ -136,7 +136,9 @@ uint64_t hashShadowView(scene::SceneData const& scene, ViewPacket const& view, u
         const scene::InstanceRaster raster = scene::inShadowMaps(draw.material->raster);
         hash = hashWords(hash, static_cast<uint32_t>(raster.culling), static_cast<uint32_t>(raster.cullingDisabled));
         hash = hashDepthInputs(*draw.material, view.uniforms, isColored, scene.versions, hash);
-        if (draw.deformation != scene::kNotDeformed) hash = hashDeformation(scene, draw.deformation, hash);
+        if (draw.deformation == scene::kNotDeformed) continue;
+        for (SortItem const& item : view.objects.order.subspan(draw.firstObject, draw.instanceCount))
+            hash = hashDeformation(scene, scene::deformationAt(scene.renderables, item.renderable), hash);
     }
     return hash;
 }

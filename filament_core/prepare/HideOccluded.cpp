@@ -160,7 +160,7 @@ void hideOccluded(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const&
     for (DrawCall& draw : blended) draw.firstObject -= static_cast<uint32_t>(removed);
 
     ViewCounts drawn;
-    const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order.first(kept.size()), drawn);
+    const DrawLists draws = mergeInstances(jobs, arena, renderables, order.first(kept.size()), drawn);
     packet.counts.triangles = packet.counts.triangles - trianglesOf(packet.opaque) + drawn.triangles;
     packet.counts.visible -= static_cast<uint32_t>(hidden);
     packet.counts.occluded = static_cast<uint32_t>(hidden);

@@ -152,7 +152,7 @@ private:
         if (hasBounds)
             pixel = area.of(float3(renderables.bounds.centerAt(at) - view.objects.cameraWorld),
                             renderables.bounds.halfExtentAt(at));
-        const uint32_t deformation = draw.drawable->deformation;
+        const uint32_t deformation = scene::deformationAt(renderables, at);
         const double deformed = deformation == scene::kNotDeformed ? 0 : kDeformedLevels;
         const double perTexture = pixel / areaScaleOf(mScene, at, deformation);
         scene::MaterialInstance const& instance = *draw.drawable->material;

@@ -90,9 +90,10 @@ void numberObjects(Arena& arena, scene::SceneData const& scene, FramePacket& pac
         for (DrawCall const& draw : draws) {
             for (uint32_t nth = 0; nth < draw.instanceCount; ++nth) {
                 const uint32_t at = main.objects.order[draw.firstObject + nth].renderable;
-                shader::ObjectData& object = records[draw.firstField + nth].object;
-                object = objectData(scene.renderables.placement[at], main.objects.cameraWorld);
-                object.flags.w = numbers.at(at);
+                shader::IrradianceField& record = records[draw.firstField + nth];
+                record.object = objectData(scene.renderables.placement[at], main.objects.cameraWorld);
+                record.object.flags.w = main.objects.firstBone(at);
+                record.center.w = numbers.at(at);
             }
         }
     }

@@ -3,7 +3,7 @@
 /// views and AOVs that show it.
 ///   In      the packet, after all that chooses its draws.   Out: FramePacket::numbered, and DrawCall::firstField, so
 ///           that draws are recorded object by object, each with a record of its own: fragments find the number in its
-///           flags.w. Vertex stages, and the records of other frames, stay as they are.
+///           center.w. Vertex stages, and the records of other frames, stay as they are.
 ///   Numbers from 1 on, exact up to 2^24. Of objects: 1 + the index of their handle. Of materials: their place among
 ///           those of the scene's renderables, in the order in which their first instances were made; so they depend on
 ///           the scene alone.

@@ -31,11 +31,13 @@ shader::ObjectData objectData(scene::Placement const& placement, double3 const& 
 
 void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shader::ObjectData> objects) {
     FILAMENT_ASSERT(objects.size() == list.size(), "writeObjects: one place for each object of the list");
+    const bool hasBones = !list.places.empty();
     jobs::parallelFor<"objects">(jobs, objects.size(), kRange, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             __builtin_prefetch(&list.placements[list.order[std::min(i + kAhead, end - 1)].renderable]);
             SortItem const& item = list.order[i];
             write(objects[i], list.placements[item.renderable], list.cameraWorld, fadeOf(item.draw));
+            if (hasBones) objects[i].flags.w = list.firstBone(item.renderable);
         }
     });
 }

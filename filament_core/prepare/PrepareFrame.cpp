@@ -129,11 +129,13 @@ std::span<const ViewInput> jittered(Arena& arena, scene::SceneData const& scene,
 FramePacket packetOf(Arena& arena, scene::SceneData const& scene, FrameViews const& views) {
     const auto packets = arena.arrayForOverwrite<ViewPacket>(views.size());
     const auto visible = arena.arrayForOverwrite<VisibleItems>(views.size());
+    for (size_t i = 0; i < views.size(); ++i) visible[i] = views[i].visible;
+    const DeformationList deformations = placeDeformations(arena, scene, visible);
     for (size_t i = 0; i < views.size(); ++i) {
         packets[i] = views[i].packet;
-        visible[i] = views[i].visible;
+        packets[i].objects.places = deformations.places;
     }
-    return { .views = packets, .deformations = placeDeformations(arena, scene, visible) };
+    return { .views = packets, .deformations = deformations };
 }
 
 /// A debug view hides them.
@@ -156,10 +158,11 @@ void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& las
     if (motion.view.opaque.empty()) return;
     const auto views = arena.arrayForOverwrite<ViewPacket>(packet.views.size() + 1);
     std::ranges::copy(packet.views, views.begin());
+    placeLastDeformations(arena, scene, motion.slots, last, packet.deformations);
     views.back() = motion.view;
+    views.back().objects.places = packet.deformations.places;
     packet.motionView = static_cast<uint32_t>(packet.views.size());
     packet.views = views;
-    placeLastDeformations(arena, scene, motion.slots, last, packet.deformations);
 }
 
 void hideFromMainView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,

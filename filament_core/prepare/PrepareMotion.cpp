@@ -31,10 +31,11 @@ struct Moment {
 };
 
 /// Of an object whose last place is known.
-bool hasMoved(Moment const& moment, DrawCall const& draw, Placement const& now, Placement const& last) {
+bool hasMoved(Moment const& moment, DrawCall const& draw, uint32_t deformation, Placement const& now,
+              Placement const& last) {
     shader::MaterialPackage const& package = draw.material->material->package;
-    const bool isDeformed = draw.deformation != scene::kNotDeformed;
-    const auto deformed = isDeformed ? moment.last.deformation(moment.scene, draw.deformation) : std::nullopt;
+    const bool isDeformed = deformation != scene::kNotDeformed;
+    const auto deformed = isDeformed ? moment.last.deformation(moment.scene, deformation) : std::nullopt;
     // Without its last pose an object has no known motion. Its pixels are reprojected as if it stood still.
     if (isDeformed && !deformed) return false;
     if (package.depthReadsParameters && package.readsFrame && moment.isTimePassed) return true;
@@ -47,18 +48,20 @@ bool hasMoved(Moment const& moment, DrawCall const& draw, Placement const& now, 
     case VertexDomain::Object:
         break;
     }
-    return !isEqual(now, last) || (isDeformed && !isDeformedAlike(moment.scene, draw.deformation, *deformed));
+    return !isEqual(now, last) || (isDeformed && !isDeformedAlike(moment.scene, deformation, *deformed));
 }
 
 /// Two records an object, so one object a draw.
 class MotionList {
 public:
-    MotionList(Arena& arena, size_t most)
+    MotionList(Arena& arena, size_t most, bool deforms)
             : mDraws(arena.arrayForOverwrite<DrawCall>(most)), mOrder(arena.arrayForOverwrite<SortItem>(most * 2)),
               mPlacements(arena.arrayForOverwrite<Placement>(most * 2)),
-              mSlots(arena.arrayForOverwrite<uint32_t>(most)) {}
+              mSlots(arena.arrayForOverwrite<uint32_t>(deforms ? most : 0)),
+              mDeformations(arena.arrayForOverwrite<uint32_t>(deforms ? most * 2 : 0)) {}
 
-    void add(DrawCall draw, Placement const& now, Placement const& last) {
+    /// `deformation`: of this object of the draw.
+    void add(DrawCall draw, uint32_t deformation, Placement const& now, Placement const& last) {
         const auto at = static_cast<uint32_t>(mCount * 2);
         mPlacements[at] = now;
         mPlacements[at + 1] = last;
@@ -66,19 +69,25 @@ public:
         draw.fade = 0; // wherever either level is seen, it has the depth that is known
         draw.firstObject = at;
         draw.instanceCount = 1;
+        draw.deformation = deformation;
         mDraws[mCount++] = draw;
-        if (draw.deformation != scene::kNotDeformed) mSlots[mDeformed++] = draw.deformation;
+        if (mDeformations.empty()) return;
+        mDeformations[at] = mDeformations[at + 1] = deformation;
+        if (deformation != scene::kNotDeformed) mSlots[mDeformed++] = deformation;
     }
 
     std::span<const DrawCall> draws() const { return mDraws.first(mCount); }
     std::span<const uint32_t> slots() const { return mSlots.first(mDeformed); }
-    ObjectList objects(double3 const& camera) const { return { mOrder.first(mCount * 2), mPlacements, camera }; }
+    ObjectList objects(double3 const& camera) const {
+        return { mOrder.first(mCount * 2), mPlacements, camera, mDeformations, {}, true };
+    }
 
 private:
     std::span<DrawCall> mDraws;
     std::span<SortItem> mOrder;
     std::span<Placement> mPlacements;
     std::span<uint32_t> mSlots;
+    std::span<uint32_t> mDeformations; // by record
     size_t mCount = 0, mDeformed = 0;
 };
 static_assert(shader::kObjectsPerWindow % 2 == 0, "both records of an object lie in one window");
@@ -95,13 +104,14 @@ PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPa
                              LastView const& seen) {
     const Moment moment{ scene, last, seen.time != main.uniforms.time, seen.isElsewhere };
     // Of opaque objects only: a pixel has one motion vector, that of the surface whose depth it has.
-    MotionList moved(arena, countObjects(main.opaque));
+    MotionList moved(arena, countObjects(main.opaque), !scene.renderables.deformation.empty());
     for (DrawCall const& draw : main.opaque) {
         for (uint32_t i = 0; i < draw.instanceCount; ++i) {
             const uint32_t at = main.objects.order[draw.firstObject + i].renderable;
             Placement const& now = scene.renderables.placement[at];
             Placement const* then = last.placement(scene, at);
-            if (then && hasMoved(moment, draw, now, *then)) moved.add(draw, now, *then);
+            const uint32_t slot = scene::deformationAt(scene.renderables, at);
+            if (then && hasMoved(moment, draw, slot, now, *then)) moved.add(draw, slot, now, *then);
         }
     }
     PreparedMotion prepared{ .slots = moved.slots() };
@@ -122,6 +132,8 @@ void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::spa
         deformations[slot] = *last.deformation(scene, slot);
         places[slot].lastBones = list.boneCount;
         list.boneCount += static_cast<uint32_t>(deformations[slot].bones.size());
+        places[slot].lastWeights = places[slot].weights;
+        if (!list.deformations[slot].morph) continue; // the block says the same of both frames
         places[slot].lastWeights = list.bytes;
         list.bytes += deformationBlock(deformations[slot].weights);
     }

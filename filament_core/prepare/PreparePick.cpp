@@ -142,6 +142,7 @@ PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     pick.packet.views = packets;
     pick.packet.settings = settings;
     pick.packet.deformations = placeDeformations(arena, scene, std::span(&prepared.visible, 1));
+    packet.objects.places = pick.packet.deformations.places;
     return pick;
 }
 

@@ -124,7 +124,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const std::span<SortItem> items = writeKeys(jobs, arena, renderables, prepared.visible, levels,
                                                 { view.kind, refraction, composes, any.farthest });
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
-    const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
+    const DrawLists draws = mergeInstances(jobs, arena, renderables, order, packet.counts);
     besideCulling.wait(); // from here on both are needed: which lights meet which lit draws
 
     packet.opaque = draws.opaque;
@@ -153,8 +153,8 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
         placeImages(arena, lights, prepared.lightRecords, space.cameraWorld, packet);
     // After the last change of the list of lights, because froxels hold indices into it.
     packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
-    packet.objects = { order, renderables.placement,
-                       settings.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
+    packet.objects = { order, renderables.placement, settings.quality.cameraRelative ? space.cameraWorld : double3(0.0),
+                       renderables.deformation };
     return prepared;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Deformations: vertex deformation of renderables: skins, whose bones follow nodes or are set by the user, and
-/// weights of morph targets. A deformed renderable has its own slot here, and its drawable refers to the slot.
+/// weights of morph targets. A deformed renderable has its own slot here (Renderables::deformation).
 ///   Bounds  the box at rest, grown by the morph targets according to their weights, then moved by every bone. A vertex
 ///           is a weighted mean of the positions its bones give it, so it never leaves that box. One box per bone makes
 ///           it tight.
@@ -76,6 +76,9 @@ public:
     uint32_t add(Deformation deformation);
     void bind(uint32_t slot, Renderable renderable) { mDeformations[slot].renderable = renderable; }
     void remove(uint32_t slot);
+    /// Equal for what can share a draw: skins with the same numbers of bones and of sets of joints. Everything else
+    /// that these need is data of each object. Morph targets are applied by draws of their own: each has its weights.
+    uint32_t kindOf(uint32_t slot) const;
     Deformation& operator[](uint32_t slot) { return mDeformations[slot]; }
     std::span<const Deformation> all() const { return mDeformations; }
 

@@ -49,7 +49,7 @@ private:
     std::vector<GeometryLayout> mLayouts;
 };
 
-/// For Drawable::deformation.
+/// Instead of a slot of Deformations, and for Drawable::deformedAs.
 inline constexpr uint32_t kNotDeformed = ~0u;
 
 /// What a renderable gives its draws besides geometry and material. RenderableInput, Drawable and DrawCall carry it
@@ -64,11 +64,10 @@ struct DrawProperties {
 /// For Drawable::coarser.
 inline constexpr uint32_t kNoLevel = ~0u;
 
-/// Deformed objects are drawn alone: no two renderables share a deformation.
 struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
-    uint32_t deformation = kNotDeformed; ///< a slot of Deformations
+    uint32_t deformedAs = kNotDeformed; ///< Deformations::kindOf(): what is equal here can share a draw
     DrawProperties properties{};
     DrawOrder place{};
     uint32_t coarser = kNoLevel; ///< the number of the next level of detail, which differs in its triangles

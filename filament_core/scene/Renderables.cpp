@@ -59,12 +59,19 @@ void write(Renderables& renderables, uint32_t at, Affine const& worldFromObject)
     renderables.flags[at] = static_cast<uint8_t>(kept | changed);
 }
 
+/// Of the last renderable. A scene without deformations has no such column.
+void addDeformation(Renderables& renderables, uint32_t deformation) {
+    std::vector<uint32_t>& column = renderables.deformation;
+    if (column.empty() && deformation == kNotDeformed) return;
+    if (column.empty()) column.resize(renderables.count() - 1, kNotDeformed);
+    append(column, deformation);
+}
+
 } // namespace
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
     const uint32_t drawable = renderables.drawables.acquire(
-            { input.geometry, input.material, input.deformation, input.properties, checked(input.place) },
-            input.levels);
+            { input.geometry, input.material, input.deformedAs, input.properties, checked(input.place) }, input.levels);
     const Renderable handle = renderables.index.add();
     const int flags =
             (input.culled ? kCulled : 0) | (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
@@ -72,6 +79,7 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
     append(renderables.flags, static_cast<uint8_t>(flags));
     append(renderables.layers, input.layers);
     append(renderables.drawable, drawable);
+    addDeformation(renderables, input.deformation);
     FILAMENT_ASSERT(input.instanceIndex < 1u << 24, "an instance index is below 2^24, where floats are whole numbers");
     append(renderables.placement, { .side = static_cast<float>(input.instanceIndex + 1) });
     append(renderables.objectBounds, boxFromMinMax(input.boundsMin, input.boundsMax));
@@ -88,6 +96,7 @@ void remove(Renderables& renderables, Renderable renderable) {
     closeGap(renderables.flags, gap);
     closeGap(renderables.layers, gap);
     closeGap(renderables.drawable, gap);
+    if (!renderables.deformation.empty()) closeGap(renderables.deformation, gap);
     closeGap(renderables.placement, gap);
     closeGap(renderables.objectBounds, gap);
     renderables.blocks.remove(gap);

@@ -42,9 +42,10 @@ struct Renderables {
 
     DenseIndex<RenderableObject> index;
     BoundsColumns bounds;
-    std::vector<uint8_t> flags;     ///< RenderableFlag
-    std::vector<uint8_t> layers;    ///< <filament_core/Objects.h>
-    std::vector<uint32_t> drawable; ///< into `drawables`
+    std::vector<uint8_t> flags;        ///< RenderableFlag
+    std::vector<uint8_t> layers;       ///< <filament_core/Objects.h>
+    std::vector<uint32_t> drawable;    ///< into `drawables`
+    std::vector<uint32_t> deformation; ///< slots of Deformations; empty until something is deformed
     std::vector<Placement> placement;
     std::vector<CenteredBox> objectBounds;
     RestingBlocks blocks;          ///< of positions
@@ -60,8 +61,9 @@ struct RenderableInput {
     float3 boundsMin{ 0.0f }, boundsMax{ 0.0f };
     double4x4 worldFromObject{ 1.0 };
     bool culled = true;
-    uint32_t instanceIndex = 0; ///< < 2^24
-    uint32_t deformation = kNotDeformed;
+    uint32_t instanceIndex = 0;          ///< < 2^24
+    uint32_t deformation = kNotDeformed; ///< a slot of Deformations
+    uint32_t deformedAs = kNotDeformed;  ///< of Drawable
     bool castsShadows = true;
     DrawProperties properties{};
     uint8_t layers = kDefaultLayers;
@@ -83,7 +85,7 @@ void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, 
 
 /// The slot in Deformations of the renderable at position `at`, or kNotDeformed.
 inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {
-    return renderables.drawables[renderables.drawable[at]].deformation;
+    return renderables.deformation.empty() ? kNotDeformed : renderables.deformation[at];
 }
 
 /// Sets the input of the next place(): the box in object space, and whether the bones mirror.

@@ -20,6 +20,7 @@ Renderable addSplats(SceneData& scene, RenderableInput const& input, std::shared
 Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation) {
     const Skin skin = deformation.skin;
     input.deformation = scene.deformations.add(std::move(deformation));
+    input.deformedAs = scene.deformations.kindOf(input.deformation);
     const Renderable renderable = addRenderable(scene, input);
     // The renderable has the number of its deformation from the start, the deformation learns its renderable
     // afterwards: handles exist only once something was added.

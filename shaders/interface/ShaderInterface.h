@@ -166,7 +166,7 @@ inline constexpr uint32_t kObjectsPerWindow = 256;
 struct ObjectData {
     float4 row0, row1, row2;
     float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance
-                  ///< index; z: how far it has faded, of level_fade.mat; w: its number or 0
+                  ///< index; z: how far it has faded, of level_fade.mat; w: the first bone of its skin
 };
 
 struct ObjectUniforms {
@@ -177,7 +177,7 @@ struct ObjectUniforms {
 /// one: the object alone, then this. u: where in the box a point is, in [-1, 1] along the axes of the world.
 struct IrradianceField {
     ObjectData object;
-    float4 center;      ///< xyz: of the box, relative to the camera; w: unused
+    float4 center;      ///< xyz: of the box, relative to the camera; w: the object's number, where a debug view shows it
     float4 inverseHalf; ///< xyz: 1 / half its sides, 1 / metres; w: unused
     /// Of the first four coefficients of irradiance / pi, as FrameUniforms::irradianceSh, red, green and blue each:
     /// xyz: change with u; w: in the middle. Before FrameUniforms::ambient.x.
@@ -295,7 +295,7 @@ inline constexpr uint32_t kMaxActiveTargets = 1022;
 struct DeformationUniforms {
     float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to
                   ///< 2
-    glm::uvec4 bones; ///< x: the first bone of the skin; y: bones - 1; zw: unused
+    glm::uvec4 bones; ///< x: skins that begin at a later bone are not there; y: bones of a skin - 1; zw: unused
     std::array<float4, kMaxActiveTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
 };
 

@@ -119,6 +119,20 @@ public:
     }
 };
 
+/// All objects have the bones of the frame's first skin.
+class OnePoseEdit final : public NamedBufferEdit {
+public:
+    OnePoseEdit() : NamedBufferEdit("objects") {}
+
+private:
+    void editBuffer(CmdUpdateBuffer& command) override {
+        Bytes& objects = copy(command.bytes);
+        constexpr size_t kFirstBone = offsetof(shader::ObjectData, flags) + 3 * sizeof(float);
+        for (size_t at = 0; at + sizeof(shader::ObjectData) <= objects.size(); at += sizeof(shader::ObjectData))
+            writeFloat(objects, at + kFirstBone, 0);
+    }
+};
+
 /// Of meshes of files, coarser levels of detail alone do not begin with the first index.
 class LevelTrianglesEdit final : public StreamEdit {
 public:
@@ -133,6 +147,7 @@ constexpr Mutation kRasterMutations[] = {
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
     { "blendOff", "blending off", make<BlendOffEdit> },
     { "firstInstance", "one object of every instanced draw is missing", make<FirstInstanceEdit> },
+    { "onePose", "skinned instances have the pose of the first one", make<OnePoseEdit> },
     { "levelTriangles", "a sixteenth of the triangles of coarser levels of detail is missing",
       make<LevelTrianglesEdit> },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },

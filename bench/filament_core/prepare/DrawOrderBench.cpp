@@ -83,8 +83,7 @@ void drawOrder(benchmark::State& state) {
         Arena arena;
         state.SetIterationTime(samples.time([&] { sorted = setup.arena.copy(sortItems(setup.jobs, arena, copy)); }));
     }
-    const DrawLists draws =
-            mergeInstances(setup.jobs, setup.arena, setup.renderables().drawables, sorted, setup.counts);
+    const DrawLists draws = mergeInstances(setup.jobs, setup.arena, setup.renderables(), sorted, setup.counts);
     DepthBuffer depth(setup.space);
     for (SortItem const& item : sorted) {
         scene::BoundsColumns const& bounds = setup.renderables().bounds;

@@ -57,8 +57,7 @@ void merge(benchmark::State& state) {
     timeStep(
             state, setup, [&] { return setup.order(); },
             [&](std::span<const SortItem> order) {
-                return draws = mergeInstances(setup.jobs, setup.arena, setup.renderables().drawables, order,
-                                              setup.counts);
+                return draws = mergeInstances(setup.jobs, setup.arena, setup.renderables(), order, setup.counts);
             });
     state.counters["draws"] = static_cast<double>(draws.opaque.size());
 }

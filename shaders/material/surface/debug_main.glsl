@@ -104,7 +104,7 @@ vec4 debugValue(MaterialInputs inputs, float level, int view, bool isNumber) {
     vec4 shown = debugShading(inputs, view);
     // The draw has bound the object's record first.
     if (view >= kViewObjectIds && view <= kViewMaterialInstanceIds)
-        shown = vec4(objectUniforms.objects[0].flags.w, 0.0, 0.0, kHasValue);
+        shown = vec4(objectUniforms.objects[1].row0.w, 0.0, 0.0, kHasValue);
     if (view == kViewCoverage) shown = debugCoverage(inputs.baseColor.a);
     if (view == kViewBaseColor) shown = vec4(inputs.baseColor.rgb, kHasValue);
     if (view == kViewEmissive)

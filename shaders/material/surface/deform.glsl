@@ -23,6 +23,11 @@ vec4 morphShape() { return deformationUniforms.shape; }
 vec4 morphTarget(int i) { return deformationUniforms.targets[i]; }
 #endif
 
+uint objectIndex(); // vertex_api.glsl
+
+// Where the bones of this instance begin, now or in the previous frame.
+float firstBone() { return objectUniforms.objects[objectIndex()].flags.w; }
+
 vec3 deformedPosition;
 vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bind pose to object space
 
@@ -43,8 +48,9 @@ vec3 morphed(vec3 value, int part) {
 }
 
 void addBones(uvec4 joints, vec4 weights) {
+    uint first = uint(firstBone());
     for (int k = 0; k < 4; ++k) {
-        uint bone = skinBones().x + min(joints[k], skinBones().y);
+        uint bone = first + min(joints[k], skinBones().y);
         ivec2 at = ivec2(bone % uint(kBonesPerRow) * 3u, bone / uint(kBonesPerRow));
         skinRow0 += weights[k] * texelFetch(boneRows, at, 0);
         skinRow1 += weights[k] * texelFetch(boneRows, at + ivec2(1, 0), 0);
@@ -52,7 +58,7 @@ void addBones(uvec4 joints, vec4 weights) {
     }
 }
 
-bool hasSkin() { return morphShape().w > 0.0; }
+bool hasSkin() { return morphShape().w > 0.0 && firstBone() <= float(skinBones().x); }
 
 vec3 normalizeOr(vec3 v, vec3 fallback) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/DeformationData.h"
 
+#include "filament_core/prepare/ObjectData.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneNodes.h"
 #include "filament_core/scene/SceneSkins.h"
@@ -107,7 +108,62 @@ TEST_F(DeformationDataTest, BlocksAreAlignedAndDoNotOverlapAndPrimitivesShareThe
     EXPECT_EQ(morphed.targets[1], float4(-2, 3, 0, 0));
     const shader::DeformationUniforms skinned = uniformsAt(packet.deformations, 7, a.weights);
     EXPECT_EQ(skinned.shape, float4(0, 0, 0, 2));
-    EXPECT_EQ(skinned.bones, glm::uvec4(0, 6, 0, 0));
+    EXPECT_EQ(skinned.bones, glm::uvec4(0, 6, 0, 0)) << "a device with room for 7 has room for skins that begin at 0";
+}
+
+/// The slot of each visible object with its first bone, in the order of drawing.
+std::vector<std::pair<uint32_t, float>> firstBones(ViewPacket const& view) {
+    std::vector<shader::ObjectData> objects(view.objects.size());
+    jobs::JobSystem jobs({ .workers = 1 });
+    writeObjects(jobs, view.objects, objects);
+    std::vector<std::pair<uint32_t, float>> found;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        found.emplace_back(view.objects.deformations[view.objects.order[i].renderable], objects[i].flags.w);
+    }
+    return found;
+}
+
+// Poses are data of objects: copies of one mesh with skins of one kind are instances, as rigid ones are.
+TEST_F(DeformationDataTest, CopiesOfASkinnedMeshShareADrawAndABlockAndHaveBonesOfTheirOwn) {
+    const auto addCopy = [&](double z, size_t bones, uint8_t jointSets) {
+        const Skin skin = scene::addSkin(scene, { .bones = std::vector<shader::BoneData>(bones) });
+        scene::setBones(scene, skin, std::vector<float4x4>(bones, float4x4(moved(0, 0, z))));
+        return addDeformed(box(double4x4(1.0), solid, 1), { .skin = skin, .jointSets = jointSets });
+    };
+    for (int i = 0; i < 3; ++i) addCopy(-5, 6, 1);
+    const FramePacket alike = prepare();
+    ASSERT_EQ(alike.mainView().opaque.size(), 1u);
+    EXPECT_EQ(alike.mainView().opaque[0].instanceCount, 3u);
+    EXPECT_EQ(alike.deformations.bytes, 256u);
+    EXPECT_EQ(alike.deformations.boneCount, 18u);
+    for (auto const& [slot, first] : firstBones(alike.mainView()))
+        EXPECT_EQ(first, static_cast<float>(alike.deformations.places[slot].bones)) << slot;
+
+    const Renderable other = addCopy(-5, 7, 1);
+    addCopy(-5, 6, 2);
+    add(double3(0, 0, -5), solid);
+    EXPECT_EQ(prepare().mainView().opaque.size(), 4u) << "other kinds of skins, and what has none";
+    scene::removeRenderable(scene, other);
+    const FramePacket fewer = prepare();
+    EXPECT_EQ(fewer.mainView().opaque.size(), 3u) << "the last renderable took the place of the removed one";
+    for (auto const& [slot, first] : firstBones(fewer.mainView()))
+        EXPECT_EQ(first,
+                  slot == scene::kNotDeformed ? 0.0f : static_cast<float>(fewer.deformations.places[slot].bones));
+}
+
+// One copy in view does not upload the others.
+TEST_F(DeformationDataTest, OnlyCopiesInViewHaveTheirBonesUploaded) {
+    for (const double z : { -5.0, 5.0, -6.0, 7.0 }) {
+        const Skin skin = scene::addSkin(scene, { .bones = std::vector<shader::BoneData>(3) });
+        scene::setBones(scene, skin, std::vector<float4x4>(3, float4x4(moved(0, 0, z))));
+        addDeformed(box(double4x4(1.0), solid, 1), { .skin = skin, .jointSets = 1 });
+    }
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.deformations.boneCount, 6u);
+    EXPECT_EQ(packet.deformations.bones[0], 0u);
+    EXPECT_EQ(packet.deformations.bones[1], kNowhere);
+    EXPECT_EQ(packet.deformations.bones[2], 3u);
+    EXPECT_EQ(packet.mainView().opaque[0].instanceCount, 2u);
 }
 
 // Without room on the device nothing is written or read behind the end.
@@ -126,10 +182,16 @@ TEST_F(DeformationDataTest, SkinsThatTheDeviceHasNoRoomForAreDrawnAtRest) {
     const auto shapeOf = [&](size_t i) {
         return uniformsAt(packet.deformations, 10, packet.deformations.places[i].weights);
     };
-    EXPECT_EQ(shapeOf(0).bones, glm::uvec4(0, 4, 0, 0));
-    EXPECT_EQ(shapeOf(1).bones, glm::uvec4(5, 3, 0, 0));
-    EXPECT_EQ(shapeOf(1).shape.w, 1.0f);
-    EXPECT_EQ(shapeOf(2).shape.w, 0.0f);
+    // A skin is drawn if it begins where its kind still ends inside of the room.
+    const auto begins = [&](size_t i) { return packet.deformations.places[i].bones; };
+    EXPECT_EQ(shapeOf(0).bones, glm::uvec4(5, 4, 0, 0));
+    EXPECT_EQ(shapeOf(1).bones, glm::uvec4(6, 3, 0, 0));
+    EXPECT_EQ(shapeOf(2).bones, glm::uvec4(7, 2, 0, 0));
+    EXPECT_EQ(begins(0), 0u);
+    EXPECT_EQ(begins(1), 5u);
+    EXPECT_EQ(begins(2), 9u) << "behind 7: at rest";
+    const uint32_t third = packet.deformations.places[2].weights;
+    EXPECT_EQ(uniformsAt(packet.deformations, 2, third).shape.w, 0.0f) << "no skin of this kind fits";
 }
 
 // Ties are resolved in the order of the targets.

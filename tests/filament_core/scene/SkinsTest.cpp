@@ -249,11 +249,14 @@ TEST_F(SkinsTest, MorphWeightsGrowTheBoundsOnTheSideThatTheyReach) {
     EXPECT_NEAR(top(), 1, 1e-4) << "a weight that is no number counts as 0";
 }
 
-TEST_F(SkinsTest, DeformedRenderablesOfOneMeshAreNotOneDraw) {
-    const Skin skin = addSkin(scene, { .bones = std::vector<shader::BoneData>(1) });
-    const Renderable a = addSkinned(skin, {}), b = addSkinned(skin, {});
-    EXPECT_NE(scene.renderables.drawable[scene.renderables.index.at(a)],
-              scene.renderables.drawable[scene.renderables.index.at(b)]);
+TEST_F(SkinsTest, RenderablesOfOneMeshAreOneDrawIfTheirSkinsHaveAsManyBones) {
+    const auto skinOf = [&](size_t bones) { return addSkin(scene, { .bones = std::vector<shader::BoneData>(bones) }); };
+    const uint32_t a = scene.renderables.index.at(addSkinned(skinOf(3), {})),
+                   b = scene.renderables.index.at(addSkinned(skinOf(3), {})),
+                   c = scene.renderables.index.at(addSkinned(skinOf(2), {}));
+    EXPECT_EQ(scene.renderables.drawable[a], scene.renderables.drawable[b]);
+    EXPECT_NE(scene.renderables.drawable[a], scene.renderables.drawable[c]);
+    EXPECT_NE(deformationAt(scene.renderables, a), deformationAt(scene.renderables, b)) << "each has bones of its own";
 }
 
 } // namespace
