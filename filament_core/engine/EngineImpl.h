@@ -54,7 +54,8 @@ struct TextureState {
 };
 
 struct VertexBufferState {
-    backend::BufferHandle handle;
+    backend::BufferHandle handle; ///< of stream 0
+    scene::VertexStreams streams; ///< the others
     backend::VertexLayout layout{};
     uint32_t vertexCount = 0;
     scene::MinMax bounds;       ///< around all positions that it had since all of it was given; empty: it has none
@@ -199,7 +200,7 @@ struct Engine::Impl {
     void resize(engine::SwapChainState& state, uint2 size);
     void present(engine::SwapChainState& state);
     void updateBuffer(backend::BufferHandle buffer, uint64_t offset, std::span<const std::byte> data);
-    void update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex);
+    void update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex, uint32_t part);
     void update(engine::IndexBufferState const& state, std::span<const std::byte> data, uint32_t firstIndex);
     void update(engine::TextureState& state, TextureUpdate const& update);
     LightProfile createLightProfile(assets::IesFile const& file, std::string name);

@@ -4,8 +4,6 @@
 #include "base/ApiCall.h"
 #include "base/Assert.h"
 
-#include <filament_core/Objects.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +13,7 @@
 namespace filament_core::engine {
 namespace {
 
-std::string nameOf(uint32_t location) {
+std::string nameOfLocation(uint32_t location) {
     constexpr const char* kNames[] = { "Position", "Tangents", "Color", "Uv0", "Uv1", "Joints", "Weights" };
     if (location < std::size(kNames)) return kNames[location];
     return fmt::format("Custom0 + {}", location - static_cast<uint32_t>(Attribute::Custom0));
@@ -24,7 +22,7 @@ std::string nameOf(uint32_t location) {
 std::string namesOf(uint32_t attributes) {
     std::string names;
     for (uint32_t location = 0; attributes >> location != 0; ++location)
-        if (attributes >> location & 1) names += (names.empty() ? "" : ", ") + nameOf(location);
+        if (attributes >> location & 1) names += (names.empty() ? "" : ", ") + nameOfLocation(location);
     return names;
 }
 
@@ -34,6 +32,8 @@ bool hasAttribute(backend::VertexLayout const& layout, Attribute attribute) {
 }
 
 } // namespace
+
+std::string nameOf(Attribute attribute) { return nameOfLocation(static_cast<uint32_t>(attribute)); }
 
 uint8_t jointSetsOf(backend::VertexLayout const& vertices) {
     FILAMENT_ASSERT(hasAttribute(vertices, Attribute::Joints) && hasAttribute(vertices, Attribute::Weights),

@@ -7,10 +7,17 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/scene/Materials.h"
 
+#include <filament_core/Objects.h>
+
+#include <string>
+
 namespace filament_core::engine {
 
 /// 1 or 2; ends the process without any.
 uint8_t jointSetsOf(backend::VertexLayout const& vertices);
+
+/// As shaders call it.
+std::string nameOf(Attribute attribute);
 
 void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
 

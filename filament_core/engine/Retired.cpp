@@ -104,7 +104,13 @@ private:
     template <class Table>
     void buffers(Table& table) {
         table.releaseRetired([&](auto const& state) { return mEngine.uses.has(state.handle); },
-                             [&](auto, auto& state) { mEngine.stream->destroy(mCommands, state.handle); });
+                             [&](auto, auto& state) {
+                                 mEngine.stream->destroy(mCommands, state.handle);
+                                 if constexpr (requires { state.streams; }) {
+                                     for (const backend::BufferHandle stream : state.streams)
+                                         if (stream) mEngine.stream->destroy(mCommands, stream);
+                                 }
+                             });
     }
 
     void morphTargets() {

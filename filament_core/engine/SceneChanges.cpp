@@ -59,7 +59,8 @@ scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Materia
              desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
              indices.format,
              desc.primitive == PrimitiveType::Triangles,
-             desc.occluder.get() };
+             desc.occluder.get(),
+             vertices.streams };
 }
 
 scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {

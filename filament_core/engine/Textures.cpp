@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures, buffers and targets: public descriptions -> commands.
 #include "backend/stream/RecordingGuards.h"
+#include "base/ApiCall.h"
 #include "base/Log.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/RequiredAttributes.h"
 #include "filament_core/engine/materials/TextureParameters.h"
 #include "filament_core/scene/VertexPositions.h"
 
@@ -107,15 +109,11 @@ void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament_core::
     uploadLevels(commands, handle, whole, mips);
 }
 
-BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
-                          std::string const& name, engine::BytesOwner const& owner) {
-    NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
-    AllOrNothing both(engine.pending);
+void recordBuffer(Engine::Impl& engine, BufferHandle handle, BufferUsage usage, std::span<const std::byte> data,
+                  std::string const& name, engine::BytesOwner const& owner) {
     engine.pending.record(CmdCreateBuffer{ handle, { data.size(), usage, name } });
     if (owner) engine.pending.keep(owner);
     recordBytes(engine.pending, CmdUpdateBuffer{ handle, 0, data }, owner);
-    both.complete();
-    return handle.keep();
 }
 
 // The driver would also reject it, but only after all of its uses have been recorded.
@@ -153,33 +151,90 @@ Texture Engine::Impl::createTexture(filament_core::TextureDesc const& desc, engi
     return draft.keep();
 }
 
+namespace {
+
 /// Of the vertices that every device takes (OpenGL ES 3.1, table 20.40; Vulkan's required limits).
 constexpr uint32_t kMostStride = 2048;
+static_assert(kMaxVertexStreams < kMaxVertexBuffers, "the instance index is one more");
+
+void requireNew(VertexLayout const& layout, Attribute attribute, uint8_t stream) {
+    for (VertexAttribute const& known : std::span(layout.attributes).first(layout.attributeCount)) {
+        if (known.location != static_cast<uint8_t>(attribute)) continue;
+        misused(fmt::format("streams {} and {} both have attribute {}; a vertex has each of them once", known.buffer,
+                            stream, engine::nameOf(attribute)));
+    }
+}
+
+/// The next stream of the layout.
+void addStream(VertexLayout& layout, uint32_t vertexCount, uint32_t stride,
+               std::vector<AttributeDesc> const& attributes, std::span<const std::byte> data) {
+    const uint8_t stream = layout.bufferCount++;
+    FILAMENT_ASSERT(vertexCount > 0 && stride > 0 && stride % 4 == 0,
+                    "a vertex buffer has vertices and a stride that is a multiple of 4");
+    FILAMENT_ASSERT(stride <= kMostStride, "a stride is at most 2048 bytes");
+    if (data.size() != static_cast<size_t>(vertexCount) * stride) {
+        if (stream == 0) misused("`data` holds vertexCount * stride bytes");
+        misused(fmt::format(
+                "stream {} has {} bytes, which is not {} vertices of {} bytes: streams have as many vertices "
+                "as the buffer",
+                stream, data.size(), vertexCount, stride));
+    }
+    FILAMENT_ASSERT(layout.attributeCount + attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
+    layout.buffers[stream].stride = static_cast<uint16_t>(stride);
+    for (AttributeDesc const& attribute : attributes) {
+        const uint32_t bytes = vertexFormatInfo(attribute.format).bytes;
+        FILAMENT_ASSERT(bytes <= stride && attribute.offset <= stride - bytes,
+                        "an attribute lies inside of the stride");
+        requireNew(layout, attribute.attribute, stream);
+        layout.attributes[layout.attributeCount++] = { static_cast<uint8_t>(attribute.attribute), stream,
+                                                       attribute.format, static_cast<uint16_t>(attribute.offset) };
+    }
+}
+
+VertexLayout layoutOf(VertexBufferDesc const& desc) {
+    if (desc.streams.size() >= kMaxVertexStreams)
+        misused(fmt::format("{} vertex streams, but at most {} can be bound", desc.streams.size() + 1,
+                            kMaxVertexStreams));
+    VertexLayout layout;
+    addStream(layout, desc.vertexCount, desc.stride, desc.attributes, desc.data);
+    for (VertexStreamDesc const& stream : desc.streams) {
+        if (stream.attributes.empty()) misused("a vertex stream has an attribute");
+        addStream(layout, desc.vertexCount, stream.stride, stream.attributes, stream.data);
+    }
+    return layout;
+}
+
+/// Of the positions, in whichever stream they are.
+scene::MinMax boundsOf(VertexLayout const& layout, VertexBufferDesc const& desc) {
+    scene::MinMax bounds = scene::boundsOf(layout, desc.data);
+    for (size_t i = 0; i < desc.streams.size() && bounds.empty(); ++i)
+        bounds = scene::boundsOf(layout, desc.streams[i].data, static_cast<uint8_t>(i + 1));
+    return bounds;
+}
+
+} // namespace
 
 VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc, engine::BytesOwner const& holder,
                                               std::optional<scene::MinMax> const& bounds) {
-    FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
-                    "a vertex buffer has vertices and a stride that is a multiple of 4");
-    FILAMENT_ASSERT(desc.stride <= kMostStride, "a stride is at most 2048 bytes");
-    FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
-                    "`data` holds vertexCount * stride bytes");
-    FILAMENT_ASSERT(desc.attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
+    const VertexLayout layout = layoutOf(desc);
     engine::Draft draft(vertexBuffers);
     engine::VertexBufferState& state = draft.state();
-    for (AttributeDesc const& attribute : desc.attributes) {
-        const uint32_t bytes = vertexFormatInfo(attribute.format).bytes;
-        FILAMENT_ASSERT(bytes <= desc.stride && attribute.offset <= desc.stride - bytes,
-                        "an attribute lies inside of the stride");
-        state.layout.attributes[state.layout.attributeCount++] = { static_cast<uint8_t>(attribute.attribute), 0,
-                                                                   attribute.format,
-                                                                   static_cast<uint16_t>(attribute.offset) };
-    }
-    state.layout.buffers[0].stride = static_cast<uint16_t>(desc.stride);
-    state.layout.bufferCount = 1;
+    state.layout = layout;
     state.vertexCount = desc.vertexCount;
-    state.bounds = bounds ? *bounds : scene::boundsOf(state.layout, desc.data);
+    state.bounds = bounds ? *bounds : boundsOf(layout, desc);
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Vertex | BufferUsage::TransferSource, desc.data, desc.name, holder);
+    // All streams, or none: a handle that is kept has a buffer.
+    NewHandle first(*stream, stream->allocateBuffer());
+    std::array<std::optional<NewHandle<BufferTag>>, kMaxVertexStreams - 1> others;
+    for (size_t i = 0; i < desc.streams.size(); ++i) others[i].emplace(*stream, stream->allocateBuffer());
+    AllOrNothing all(pending);
+    recordBuffer(*this, first, BufferUsage::Vertex | BufferUsage::TransferSource, desc.data, desc.name, holder);
+    for (size_t i = 0; i < desc.streams.size(); ++i)
+        recordBuffer(*this, *others[i], BufferUsage::Vertex | BufferUsage::TransferSource, desc.streams[i].data,
+                     desc.name, {});
+    all.complete();
+    state.handle = first.keep();
+    for (size_t i = 0; i < desc.streams.size(); ++i) state.streams[i] = others[i]->keep();
     return draft.keep();
 }
 
@@ -191,7 +246,11 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc, engine:
     state.format = desc.format;
     state.indexCount = desc.indexCount;
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Index | BufferUsage::TransferSource, desc.data, desc.name, holder);
+    NewHandle handle(*stream, stream->allocateBuffer());
+    AllOrNothing both(pending);
+    recordBuffer(*this, handle, BufferUsage::Index | BufferUsage::TransferSource, desc.data, desc.name, holder);
+    both.complete();
+    state.handle = handle.keep();
     return draft.keep();
 }
 

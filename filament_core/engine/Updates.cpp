@@ -86,12 +86,15 @@ void Engine::Impl::updateBuffer(BufferHandle buffer, uint64_t offset, std::span<
     ++instanceChanges;
 }
 
-void Engine::Impl::update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex) {
-    const size_t stride = state.layout.buffers[0].stride;
+void Engine::Impl::update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex,
+                          uint32_t part) {
+    requireInside(part, 1, state.layout.bufferCount, "streams");
+    const size_t stride = state.layout.buffers[part].stride;
     requireWhole(data.size(), stride, "vertices");
     requireInside(firstVertex, data.size() / stride, state.vertexCount, "vertices");
-    updateBuffer(state.handle, firstVertex * stride, data);
-    const scene::MinMax changed = scene::boundsOf(state.layout, data);
+    updateBuffer(part == 0 ? state.handle : state.streams[part - 1], firstVertex * stride, data);
+    if (!scene::hasPositions(state.layout, static_cast<uint8_t>(part))) return;
+    const scene::MinMax changed = scene::boundsOf(state.layout, data, static_cast<uint8_t>(part));
     // After a change in part, bounds only grow: which vertex reached the old ones is not known.
     if (data.size() / stride == state.vertexCount) state.bounds = {};
     if (!changed.empty()) state.bounds.add(changed.min), state.bounds.add(changed.max);
@@ -130,10 +133,10 @@ void Engine::Impl::update(engine::TextureState& state, TextureUpdate const& upda
     ++instanceChanges;
 }
 
-void Engine::update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex) {
-    const PublicCall call(mImpl, "Engine::update(VertexBuffer, span<byte>, uint32_t)");
+void Engine::update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex, uint32_t stream) {
+    const PublicCall call(mImpl, "Engine::update(VertexBuffer, span<byte>, uint32_t, uint32_t)");
     engine::VertexBufferState& state = mImpl->vertexBuffers.get(buffer);
-    mImpl->orReport("updating vertex buffer", state.name, [&] { mImpl->update(state, data, firstVertex); });
+    mImpl->orReport("updating vertex buffer", state.name, [&] { mImpl->update(state, data, firstVertex, stream); });
 }
 
 void Engine::update(IndexBuffer buffer, std::span<const std::byte> data, uint32_t firstIndex) {

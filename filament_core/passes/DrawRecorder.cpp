@@ -83,7 +83,11 @@ private:
 
     void bindGeometry(scene::Geometry const& geometry) {
         if (geometry.vertices != mVertices) {
-            mCommands.record(CmdBindVertexBuffers{ { geometry.vertices, mContext.instanceIds }, {}, 2 });
+            CmdBindVertexBuffers bound{ { geometry.vertices }, {}, 1 };
+            for (const BufferHandle stream : geometry.streams)
+                if (stream) bound.buffers[bound.count++] = stream;
+            bound.buffers[bound.count++] = mContext.instanceIds; // where withInstanceIndex() puts it
+            mCommands.record(bound);
             mVertices = geometry.vertices;
         }
         if (geometry.indices != mIndices || geometry.indexFormat != mIndexType) {

@@ -75,7 +75,10 @@ uint64_t hashDeformation(scene::SceneData const& scene, uint32_t slot, uint64_t 
 
 uint64_t hashVersions(scene::ContentVersions const* versions, scene::Geometry const& geometry, uint64_t seed) {
     if (!versions) return seed;
-    const uint32_t vertices = versions->of(geometry.vertices), indices = versions->of(geometry.indices);
+    uint32_t vertices = versions->of(geometry.vertices);
+    const uint32_t indices = versions->of(geometry.indices);
+    for (const backend::BufferHandle stream : geometry.streams)
+        vertices += stream ? versions->of(stream) : 0;                            // versions only grow
     return (vertices | indices) != 0 ? hashWords(seed, vertices, indices) : seed; // most never change
 }
 

@@ -14,12 +14,16 @@
 #include <filament_core/Objects.h>
 #include <filament_core/Occluder.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 namespace filament_core::scene {
+
+/// The vertex streams after the first; those that are not there come last.
+using VertexStreams = std::array<backend::BufferHandle, kMaxVertexStreams - 1>;
 
 /// The geometry of one draw on the device.
 struct Geometry {
@@ -29,6 +33,7 @@ struct Geometry {
     backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;
     bool isOfTriangles = true;
     OccluderMesh const* occluder = nullptr; ///< Drawables keeps it
+    VertexStreams streams{};                ///< each vertex buffer has its own: `vertices` tells them
     friend bool operator==(Geometry const&, Geometry const&) = default;
 };
 

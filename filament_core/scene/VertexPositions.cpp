@@ -75,12 +75,19 @@ std::optional<double3> positionAt(const std::byte* source, VertexFormat format) 
 
 namespace {
 
-template <class Visit>
-void forEachPosition(backend::VertexLayout const& layout, std::span<const std::byte> vertices, Visit const& visit) {
+/// Null: this stream has none.
+backend::VertexAttribute const* positionOf(backend::VertexLayout const& layout, uint8_t stream) {
     const auto attributes = std::span(layout.attributes).first(layout.attributeCount);
     const auto found = std::ranges::find(attributes, shader::kAttributePosition, &backend::VertexAttribute::location);
-    if (found == attributes.end()) return;
-    const size_t stride = layout.buffers[0].stride;
+    return found != attributes.end() && found->buffer == stream ? &*found : nullptr;
+}
+
+template <class Visit>
+void forEachPosition(backend::VertexLayout const& layout, std::span<const std::byte> vertices, uint8_t stream,
+                     Visit const& visit) {
+    backend::VertexAttribute const* const found = positionOf(layout, stream);
+    if (!found) return;
+    const size_t stride = layout.buffers[stream].stride;
     for (size_t at = 0; at + stride <= vertices.size(); at += stride) {
         if (const std::optional<double3> position = positionAt(&vertices[at + found->offset], found->format))
             visit(*position);
@@ -91,13 +98,15 @@ void forEachPosition(backend::VertexLayout const& layout, std::span<const std::b
 
 std::vector<float3> positionsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices) {
     std::vector<float3> positions;
-    forEachPosition(layout, vertices, [&](double3 const& position) { positions.emplace_back(position); });
+    forEachPosition(layout, vertices, 0, [&](double3 const& position) { positions.emplace_back(position); });
     return positions;
 }
 
-MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices) {
+bool hasPositions(backend::VertexLayout const& layout, uint8_t stream) { return positionOf(layout, stream) != nullptr; }
+
+MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices, uint8_t stream) {
     MinMax bounds;
-    forEachPosition(layout, vertices, [&](double3 const& position) {
+    forEachPosition(layout, vertices, stream, [&](double3 const& position) {
         if (std::isfinite(position.x + position.y + position.z)) bounds.add(float3(position));
     });
     return bounds;

@@ -24,6 +24,8 @@ std::vector<float3> positionsOf(backend::VertexLayout const& layout, std::span<c
 std::vector<uint32_t> indicesOf(backend::IndexFormat format, std::span<const std::byte> indices);
 
 /// Around the finite positions of an interleaved stream; empty if there are none, or the layout has none.
-MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);
+/// `vertices`: of this stream; empty if the positions are in another one.
+MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices, uint8_t stream = 0);
+bool hasPositions(backend::VertexLayout const& layout, uint8_t stream);
 
 } // namespace filament_core::scene

@@ -182,7 +182,7 @@ public:
     // object keeps its contents, and takeErrors() reports it.
 
     /// `data`: whole vertices. Bounds that renderables did not name follow.
-    void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0);
+    void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0, uint32_t stream = 0);
     void update(IndexBuffer buffer, std::span<const std::byte> data, uint32_t firstIndex = 0);
     void update(Texture texture, TextureUpdate const& update);
 

@@ -124,12 +124,24 @@ struct AttributeDesc {
     uint32_t offset = 0; ///< bytes from the start of a vertex
 };
 
-/// One interleaved stream. `data` is copied before the call returns.
+/// Attributes that lie apart from the others, because they change at other times.
+struct VertexStreamDesc {
+    uint32_t stride = 0; ///< bytes, > 0, multiple of 4
+    std::vector<AttributeDesc> attributes{};
+    std::span<const std::byte> data{}; ///< vertexCount * stride bytes
+};
+
+inline constexpr uint32_t kMaxVertexStreams = 3;
+
+/// Interleaved attributes. `data` is copied before the call returns.
 struct VertexBufferDesc {
     uint32_t vertexCount = 0; ///< > 0
     uint32_t stride = 0;      ///< bytes, > 0, multiple of 4
     std::vector<AttributeDesc> attributes{};
     std::span<const std::byte> data{}; ///< vertexCount * stride bytes
+    /// Further streams, of as many vertices, with other attributes: the first is stream 1 of Engine::update(). At most
+    /// kMaxVertexStreams with that of `data`. docs/objects.md, "Vertex streams".
+    std::vector<VertexStreamDesc> streams{};
     std::string name{};
 };
 

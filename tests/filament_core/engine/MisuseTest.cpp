@@ -183,7 +183,7 @@ std::vector<Use> usesOfGeometry() {
           [](World& world, Handles const& bad) { world.engine.destroy(bad.indices); }, true },
         { "Engine::destroy(EngineObject)", "morph targets", "smile",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.targets); }, true },
-        { "Engine::update(VertexBuffer, span<byte>, uint32_t)", "vertex buffer", "corners",
+        { "Engine::update(VertexBuffer, span<byte>, uint32_t, uint32_t)", "vertex buffer", "corners",
           [](World& world, Handles const& bad) { world.engine.update(bad.vertices, {}); } },
         { "Engine::update(IndexBuffer, span<byte>, uint32_t)", "index buffer", "order",
           [](World& world, Handles const& bad) { world.engine.update(bad.indices, {}); } },
