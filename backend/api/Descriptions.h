@@ -8,6 +8,7 @@
 #include "backend/api/TextureRange.h"
 
 #include <filament_core/NativeWindow.h>
+#include <filament_core/OutputSpace.h>
 #include <filament_core/Sampler.h>
 
 #include <array>
@@ -370,6 +371,11 @@ struct BindGroupDesc {
 struct SurfaceDesc {
     uint64_t window = 0; ///< NativeWindow::handle, of the window system of DriverOptions::display
     PresentMode presentMode = PresentMode::Fifo; ///< Fifo where the device has no such mode
+    OutputSpace space = OutputSpace::Srgb;       ///< how the window reads what is presented to it
+    float peakNits = 203; ///< cd/m^2 of the brightest pixel, which displays are told of with Rec2020Pq
+    /// Set: the surface is only asked, and nothing is presented to it. Answered as a read-back: a byte for each
+    /// OutputSpace that the window can have; none: it cannot be opened.
+    Ticket spaces{};
     std::string_view debugName;
 };
 

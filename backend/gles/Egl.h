@@ -23,7 +23,7 @@ namespace filament_core::backend::gles {
     X(BindAPI) X(ChooseConfig) X(CreateContext) X(CreateWindowSurface) X(DestroyContext) X(DestroySurface)       \
     X(GetConfigAttrib) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError)                \
     X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(QuerySurface) X(ReleaseThread)  \
-    X(SwapBuffers) X(SwapInterval) X(Terminate)
+    X(SurfaceAttrib) X(SwapBuffers) X(SwapInterval) X(Terminate)
 // clang-format on
 
 /// One place to look for devices.

@@ -24,6 +24,11 @@ void Executor::execute(CmdCreateBindGroup const& command) {
 }
 
 void Executor::execute(CmdCreateSurface const& command) {
+    if (command.desc.spaces) {
+        // EGL takes a window once, and knows its display's spaces without.
+        const std::vector<OutputSpace> spaces = Surface::spaces(mContext);
+        return mDevice.sink.onReadback(command.desc.spaces, std::as_bytes(std::span(spaces)));
+    }
     Result<std::unique_ptr<Surface>> surface = Surface::create(mContext, mDisplay, command.desc);
     if (!surface) return mDevice.error(DriverErrorKind::Other, "{}", surface.error().message);
     mSurfaces.put(command.handle, std::move(*surface));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Surface.h"
 
+#include "backend/gles/WindowSpaces.h"
+
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -32,37 +34,41 @@ WaylandEgl const& waylandEgl() {
 }
 
 /// EGL returns configs with more bits than requested, and those first.
-bool hasEightBits(Egl const& egl, EGLDisplay display, EGLConfig config) {
+bool hasBits(Egl const& egl, EGLDisplay display, EGLConfig config, EGLint wanted) {
     EGLint bits = 0;
-    return egl.GetConfigAttrib(display, config, EGL_GREEN_SIZE, &bits) && bits == 8;
+    return egl.GetConfigAttrib(display, config, EGL_GREEN_SIZE, &bits) && bits == wanted;
 }
 
-/// Configurations of 8 bits a channel for windows: opaque ones first.
-std::vector<EGLConfig> windowConfigs(Egl const& egl, EGLDisplay display) {
+/// Configurations with these channels for windows: opaque ones first.
+std::vector<EGLConfig> windowConfigs(Egl const& egl, EGLDisplay display, WindowChannels channels) {
+    const char* const extensions = egl.QueryString(display, EGL_EXTENSIONS);
+    if (channels.isFloat && !hasExtension(extensions, "EGL_EXT_pixel_format_float")) return {};
     std::vector<EGLConfig> configs;
-    for (EGLint alpha : { 0, 8 }) {
-        const std::array<EGLint, 17> wanted{ EGL_SURFACE_TYPE,
+    for (EGLint alpha : { 0, channels.bits == 10 ? 2 : channels.bits }) {
+        const std::array<EGLint, 19> wanted{ EGL_SURFACE_TYPE,
                                              EGL_WINDOW_BIT,
                                              EGL_RENDERABLE_TYPE,
                                              EGL_OPENGL_ES3_BIT,
                                              EGL_RED_SIZE,
-                                             8,
+                                             channels.bits,
                                              EGL_GREEN_SIZE,
-                                             8,
+                                             channels.bits,
                                              EGL_BLUE_SIZE,
-                                             8,
+                                             channels.bits,
                                              EGL_ALPHA_SIZE,
                                              alpha,
                                              EGL_SAMPLES,
                                              0,
                                              EGL_DEPTH_SIZE,
                                              0,
+                                             channels.isFloat ? EGL_COLOR_COMPONENT_TYPE_EXT : EGL_NONE,
+                                             EGL_COLOR_COMPONENT_TYPE_FLOAT_EXT,
                                              EGL_NONE };
         std::array<EGLConfig, 64> found{};
         EGLint count = 0;
         if (!egl.ChooseConfig(display, wanted.data(), found.data(), found.size(), &count)) continue;
         std::copy_if(found.begin(), found.begin() + count, std::back_inserter(configs),
-                     [&](EGLConfig each) { return hasEightBits(egl, display, each); });
+                     [&](EGLConfig each) { return hasBits(egl, display, each, channels.bits); });
     }
     return configs;
 }
@@ -98,14 +104,55 @@ Result<void> Surface::open(NativeDisplay const& display, SurfaceDesc const& desc
         window = reinterpret_cast<EGLNativeWindowType>(mWaylandWindow);
     }
     Egl const& egl = mContext.egl();
-    for (EGLConfig config : windowConfigs(egl, mContext.display())) {
-        mSurface = egl.CreateWindowSurface(mContext.display(), config, window, nullptr);
-        if (mSurface != EGL_NO_SURFACE) return {}; // X11: a configuration whose visual is that of the window
+    const std::vector<OutputSpace> offered = spaces(mContext);
+    if (std::ranges::find(offered, desc.space) == offered.end()) {
+        std::string names;
+        for (const OutputSpace each : offered) names += (names.empty() ? "" : ", ") + std::string(toString(each));
+        return fail(ErrorCode::Unsupported,
+                    "window '{}' shows no {}; it has {}: set SwapChainDesc::outputSpace to one of those, which "
+                    "Engine::outputSpaces() returns",
+                    mName, toString(desc.space), names);
+    }
+    const EGLint space = colorSpaceOf(desc.space);
+    const std::array<EGLint, 3> attributes{ space == EGL_NONE ? EGL_NONE : EGL_GL_COLORSPACE_KHR, space, EGL_NONE };
+    for (EGLConfig config : windowConfigs(egl, mContext.display(), channelsOf(desc.space))) {
+        mSurface = egl.CreateWindowSurface(mContext.display(), config, window,
+                                           space == EGL_NONE ? nullptr : attributes.data());
+        if (mSurface == EGL_NO_SURFACE) continue; // X11: a configuration whose visual is that of the window
+        if (desc.space == OutputSpace::Rec2020Pq) describePeak(desc.peakNits);
+        return {};
     }
     return fail(ErrorCode::Internal,
                 "window '{}': EGL has no surface for it (EGL error {:#x}); is it a window of this "
                 "display, and nobody else's to draw to?",
                 mName, egl.GetError());
+}
+
+std::vector<OutputSpace> Surface::spaces(Context const& context) {
+    Egl const& egl = context.egl();
+    const EGLDisplay display = context.display();
+    const auto has = [&](OutputSpace space) { return !windowConfigs(egl, display, channelsOf(space)).empty(); };
+    return spacesOf(egl.QueryString(display, EGL_EXTENSIONS), has(OutputSpace::Rec2020Pq),
+                    has(OutputSpace::LinearRec709));
+}
+
+/// SMPTE ST 2086 and CTA-861.3: primaries of Rec. 2020, D65, and the brightest pixel.
+void Surface::describePeak(float peakNits) const {
+    Egl const& egl = mContext.egl();
+    const char* const extensions = egl.QueryString(mContext.display(), EGL_EXTENSIONS);
+    const auto set = [&](EGLint attribute, float value) {
+        egl.SurfaceAttrib(mContext.display(), mSurface, attribute,
+                          static_cast<EGLint>(value * EGL_METADATA_SCALING_EXT + 0.5f));
+    };
+    if (hasExtension(extensions, "EGL_EXT_surface_SMPTE2086_metadata")) {
+        set(EGL_SMPTE2086_DISPLAY_PRIMARY_RX_EXT, 0.708f), set(EGL_SMPTE2086_DISPLAY_PRIMARY_RY_EXT, 0.292f);
+        set(EGL_SMPTE2086_DISPLAY_PRIMARY_GX_EXT, 0.170f), set(EGL_SMPTE2086_DISPLAY_PRIMARY_GY_EXT, 0.797f);
+        set(EGL_SMPTE2086_DISPLAY_PRIMARY_BX_EXT, 0.131f), set(EGL_SMPTE2086_DISPLAY_PRIMARY_BY_EXT, 0.046f);
+        set(EGL_SMPTE2086_WHITE_POINT_X_EXT, 0.3127f), set(EGL_SMPTE2086_WHITE_POINT_Y_EXT, 0.3290f);
+        set(EGL_SMPTE2086_MAX_LUMINANCE_EXT, peakNits), set(EGL_SMPTE2086_MIN_LUMINANCE_EXT, 0);
+    }
+    if (hasExtension(extensions, "EGL_EXT_surface_CTA861_3_metadata"))
+        set(EGL_CTA861_3_MAX_CONTENT_LIGHT_LEVEL_EXT, peakNits);
 }
 
 Surface::~Surface() {

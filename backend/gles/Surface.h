@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace filament_core::backend::gles {
 
@@ -24,12 +25,16 @@ public:
     Surface(Surface const&) = delete;
     Surface& operator=(Surface const&) = delete;
 
+    /// What windows of the display can have.
+    static std::vector<OutputSpace> spaces(Context const& context);
+
     /// Copies the texture into the window, and shows it. False: the window did not take it.
     bool present(Device& device, Framebuffers& framebuffers, Texture const& texture);
 
 private:
     Surface(Context const& context, SurfaceDesc const& desc);
     Result<void> open(NativeDisplay const& display, SurfaceDesc const& desc);
+    void describePeak(float peakNits) const;
     void follow(Texture const& texture);
     void copy(Device& device, Framebuffers& framebuffers, Texture const& texture);
     void reportOnce(Device& device, const char* what);

@@ -90,6 +90,8 @@ inline constexpr std::array kEnumNames<BlendFactor>{ "Zero"sv,
 template <>
 inline constexpr std::array kEnumNames<PresentMode>{ "Fifo"sv, "Mailbox"sv, "Immediate"sv };
 template <>
+inline constexpr std::array kEnumNames<OutputSpace>{ "Srgb"sv, "LinearRec709"sv, "DisplayP3"sv, "Rec2020Pq"sv };
+template <>
 inline constexpr std::array kEnumNames<BlendOp>{ "Add"sv, "Subtract"sv, "ReverseSubtract"sv, "Min"sv, "Max"sv };
 
 /// How many enumerators (or bits) there are.

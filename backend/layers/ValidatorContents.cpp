@@ -173,8 +173,8 @@ void Validator::execute(CmdPresent const& command) {
     mObject = surface->name;
     if (!checkBlitSide(*texture, "texture", TextureUsage::TransferSource)) return;
     const Format format = texture->desc.format;
-    require(format == Format::RGBA8 || format == Format::RGB10A2, Harm::WrongResult,
-            "texture '{}' is {}; a window shows RGBA8 or RGB10A2", texture->name, formatInfo(format).name);
+    require(format == Format::RGBA8 || format == Format::RGB10A2 || format == Format::RGBA16F, Harm::WrongResult,
+            "texture '{}' is {}; a window shows RGBA8, RGB10A2 or RGBA16F", texture->name, formatInfo(format).name);
 }
 
 } // namespace filament_core::backend

@@ -2,6 +2,7 @@
 #include "backend/null/NullDriver.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <unordered_map>
 #include <vector>
@@ -113,6 +114,12 @@ public:
     void execute(CmdDrawIndexed const&) { ++mCount.commands, ++mCount.draws; }
 
     void execute(CmdDispatch const&) { ++mCount.commands, ++mCount.dispatches; }
+
+    void execute(CmdCreateSurface const& command) {
+        ++mCount.commands;
+        constexpr std::array kSpaces{ std::byte{ static_cast<uint8_t>(OutputSpace::Srgb) } };
+        if (command.desc.spaces) mSink.onReadback(command.desc.spaces, kSpaces);
+    }
 
     void execute(CmdPresent const&) { ++mCount.commands, ++mCount.presents; }
 

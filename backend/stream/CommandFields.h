@@ -167,7 +167,9 @@ FILAMENT_FIELDS(BindGroupDesc, "BindGroupDesc", FILAMENT_FIELD(BindGroupDesc, la
                 FILAMENT_FIELD(BindGroupDesc, entries), FILAMENT_FIELD(BindGroupDesc, debugName));
 
 FILAMENT_FIELDS(SurfaceDesc, "SurfaceDesc", FILAMENT_FIELD(SurfaceDesc, window),
-                FILAMENT_FIELD(SurfaceDesc, presentMode), FILAMENT_FIELD(SurfaceDesc, debugName));
+                FILAMENT_FIELD(SurfaceDesc, presentMode), FILAMENT_FIELD(SurfaceDesc, space),
+                FILAMENT_FIELD(SurfaceDesc, peakNits), FILAMENT_FIELD(SurfaceDesc, spaces),
+                FILAMENT_FIELD(SurfaceDesc, debugName));
 
 // ---------------------------------------------------------------------------------------------- commands
 

@@ -44,6 +44,7 @@ VkResult createHandle(Instance const& instance, PhysicalDevice const& physical, 
         extensions.push_back(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
     }
     if (instance.display().system != WindowSystem::None) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (physical.hdrMetadata) extensions.push_back(VK_EXT_HDR_METADATA_EXTENSION_NAME);
     if (physical.bresenhamLines) {
         extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
         lines.pNext = features.pNext;

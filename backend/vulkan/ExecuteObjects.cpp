@@ -81,7 +81,13 @@ void Executor::execute(CmdCreateBindGroup const& command) {
 }
 
 void Executor::execute(CmdCreateSurface const& command) {
-    store(mSurfaces, command.handle, Surface::create(*mDevice, command.desc), DriverErrorKind::Other);
+    const Ticket ticket = command.desc.spaces;
+    if (!ticket)
+        return store(mSurfaces, command.handle, Surface::create(*mDevice, command.desc), DriverErrorKind::Other);
+    const Result<std::unique_ptr<Surface>> asked = Surface::create(*mDevice, command.desc);
+    if (!asked) report(asked.error());
+    const std::vector<OutputSpace> spaces = asked ? (*asked)->spaces() : std::vector<OutputSpace>{};
+    mSink.onReadback(ticket, std::as_bytes(std::span(spaces)));
 }
 
 // ---------------------------------------------------------------------------------------------- destroy

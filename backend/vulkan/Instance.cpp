@@ -57,6 +57,14 @@ const char* surfaceExtension(WindowSystem system) {
     return system == WindowSystem::X11 ? "VK_KHR_xlib_surface" : "VK_KHR_wayland_surface";
 }
 
+bool hasInstanceExtension(const char* name) {
+    uint32_t count = 0;
+    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr) != VK_SUCCESS) return false;
+    std::vector<VkExtensionProperties> all(count);
+    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, all.data()) < VK_SUCCESS) return false;
+    return std::ranges::any_of(all, [&](auto const& each) { return !std::strcmp(each.extensionName, name); });
+}
+
 VkResult createHandle(ResultSink* sink, WindowSystem windows, uint32_t apiVersion, VkInstance& handle) {
     auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     application.pEngineName = "filament_core";
@@ -72,6 +80,9 @@ VkResult createHandle(ResultSink* sink, WindowSystem windows, uint32_t apiVersio
     features.pNext = &messenger; // receives messages about creating and destroying the instance
     std::vector<const char*> extensions;
     if (windows != WindowSystem::None) extensions = { VK_KHR_SURFACE_EXTENSION_NAME, surfaceExtension(windows) };
+    // Without it surfaces name no colour space but sRGB.
+    if (windows != WindowSystem::None && hasInstanceExtension(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME))
+        extensions.push_back(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME);
     if (sink) {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);

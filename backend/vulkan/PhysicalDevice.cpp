@@ -87,6 +87,8 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     device.imageFormatList = extensions.has(VK_KHR_IMAGE_FORMAT_LIST_EXTENSION_NAME);
     device.swapchains = extensions.has(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    device.hdrMetadata = device.swapchains && instance.display().system != WindowSystem::None &&
+                         extensions.has(VK_EXT_HDR_METADATA_EXTENSION_NAME);
     if (!device.swapchains && instance.display().system != WindowSystem::None)
         device.unusable = "presents to no window";
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);

@@ -32,6 +32,7 @@ struct PhysicalDevice {
     bool depthResolve = false;
     bool imageFormatList = false;       ///< images may list the formats of their views
     bool swapchains = false;            ///< presents to windows
+    bool hdrMetadata = false;           ///< VK_EXT_hdr_metadata, for windows
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
     Quirks quirks;

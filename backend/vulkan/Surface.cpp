@@ -2,6 +2,7 @@
 #include "backend/vulkan/Surface.h"
 
 #include "backend/vulkan/Barriers.h"
+#include "backend/vulkan/SurfaceFormats.h"
 
 #include <algorithm>
 #include <array>
@@ -48,11 +49,10 @@ std::vector<T> enumerate(F&& call) {
     return list;
 }
 
-std::span<const VkFormat> formatsFor(Format format) {
-    static constexpr std::array kTen{ VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32,
-                                      VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM };
-    static constexpr std::array kEight{ VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM };
-    return format == Format::RGB10A2 ? std::span<const VkFormat>(kTen) : std::span<const VkFormat>(kEight);
+std::string namesOf(std::vector<OutputSpace> const& spaces) {
+    std::string names;
+    for (const OutputSpace space : spaces) names += (names.empty() ? "" : ", ") + std::string(toString(space));
+    return names.empty() ? "none" : names;
 }
 
 VkCompositeAlphaFlagBitsKHR compositeAlpha(VkSurfaceCapabilitiesKHR const& capabilities) {
@@ -89,7 +89,8 @@ VkImageMemoryBarrier barrierOf(VkImage image, VkImageLayout before, VkImageLayou
 // ---------------------------------------------------------------------------------------------- life time
 
 Surface::Surface(Device& device, SurfaceDesc const& desc)
-        : mDevice(device), mName(desc.debugName), mMode(desc.presentMode) {}
+        : mDevice(device), mName(desc.debugName), mMode(desc.presentMode), mSpace(desc.space),
+          mPeakNits(desc.peakNits) {}
 
 Result<std::unique_ptr<Surface>> Surface::create(Device& device, SurfaceDesc const& desc) {
     std::unique_ptr<Surface> surface(new Surface(device, desc));
@@ -130,18 +131,34 @@ Surface::~Surface() {
 
 // ---------------------------------------------------------------------------------------------- swapchain
 
-Result<VkSurfaceFormatKHR> Surface::chooseFormat(Format format) const {
-    const auto formats = enumerate<VkSurfaceFormatKHR>([&](uint32_t* count, VkSurfaceFormatKHR* list) {
+std::vector<VkSurfaceFormatKHR> Surface::offeredFormats() const {
+    return enumerate<VkSurfaceFormatKHR>([&](uint32_t* count, VkSurfaceFormatKHR* list) {
         return mDevice.instance().fn().vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical().handle, mSurface, count,
                                                                             list);
     });
-    for (VkFormat wanted : formatsFor(format)) {
-        const auto found = std::ranges::find_if(formats, [&](VkSurfaceFormatKHR const& each) {
-            return each.format == wanted && each.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
-        });
-        if (found != formats.end()) return *found;
-    }
-    return fail(ErrorCode::Unsupported, "window '{}' has no format of 8 bits that takes encoded colours", mName);
+}
+
+std::vector<OutputSpace> Surface::spaces() const { return spacesOf(offeredFormats()); }
+
+Result<VkSurfaceFormatKHR> Surface::chooseFormat(Format format) const {
+    const std::vector<VkSurfaceFormatKHR> offered = offeredFormats();
+    if (const auto found = chooseSurfaceFormat(offered, format, mSpace)) return *found;
+    return fail(ErrorCode::Unsupported,
+                "window '{}' shows no {} as {}; it has {}: set SwapChainDesc::outputSpace to one of those, which "
+                "Engine::outputSpaces() returns",
+                mName, formatInfo(format).name, toString(mSpace), namesOf(spacesOf(offered)));
+}
+
+/// SMPTE ST 2086 and CTA-861.3: primaries of Rec. 2020, D65, and the brightest pixel.
+void Surface::describePeak() const {
+    if (mSpace != OutputSpace::Rec2020Pq || !mDevice.physical().hdrMetadata) return;
+    auto metadata = make<VkHdrMetadataEXT>(VK_STRUCTURE_TYPE_HDR_METADATA_EXT);
+    metadata.displayPrimaryRed = { 0.708f, 0.292f };
+    metadata.displayPrimaryGreen = { 0.170f, 0.797f };
+    metadata.displayPrimaryBlue = { 0.131f, 0.046f };
+    metadata.whitePoint = { 0.3127f, 0.3290f };
+    metadata.maxLuminance = metadata.maxContentLightLevel = mPeakNits;
+    mDevice.fn().vkSetHdrMetadataEXT(mDevice.handle(), 1, &mSwapchain, &metadata);
 }
 
 VkPresentModeKHR Surface::chooseMode() const {
@@ -191,6 +208,7 @@ Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
     mSwapchain = made;
     if (result == VK_SUCCESS) result = takeImages();
     if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: swapchain of window '{}'", mName));
+    describePeak();
     mExtent = extent, mWanted = wanted, mFormat = format;
     mIsStale = false;
     return true;

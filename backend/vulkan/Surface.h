@@ -2,7 +2,7 @@
 /// Surface: a window, and the swapchain that images are copied to. The swapchain follows the size of the window, and of
 /// what is presented where the window system leaves that to us (Wayland).
 ///   Thread  the driver thread.
-///   Format  8 bits a channel without sRGB conversion, or 10 bits where the window has them: what is copied is encoded.
+///   Format  SurfaceFormats.h: what is copied is encoded. Displays of HDR10 are told of the peak (VK_EXT_hdr_metadata).
 ///   Waits   acquire() at most kAcquireTimeout for the window system; a new swapchain, and the end, for the device.
 ///   Fails   create(), acquire(): Unsupported, OutOfMemory or Internal, with the name of the window.
 #pragma once
@@ -41,6 +41,9 @@ public:
     /// Negative: the window did not take it. A window that has changed gets a new swapchain next time.
     VkResult present(Target const& target);
 
+    /// What the window offers; none: it cannot be asked.
+    std::vector<OutputSpace> spaces() const;
+
     bool isReported = false; ///< a failure was told already
 
 private:
@@ -58,7 +61,9 @@ private:
     Result<void> open(SurfaceDesc const& desc);
     /// False: there is nothing to draw to now.
     Result<bool> rebuild(Format format, VkExtent2D wanted);
+    std::vector<VkSurfaceFormatKHR> offeredFormats() const;
     Result<VkSurfaceFormatKHR> chooseFormat(Format format) const;
+    void describePeak() const;
     VkPresentModeKHR chooseMode() const;
     VkResult takeImages();
     void dropImages();
@@ -68,6 +73,8 @@ private:
     Device& mDevice;
     std::string mName;
     PresentMode mMode;
+    OutputSpace mSpace;
+    float mPeakNits;
     VkSurfaceKHR mSurface = VK_NULL_HANDLE;
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     VkExtent2D mExtent{}, mWanted{}; ///< of the swapchain; of what was presented to it

@@ -197,6 +197,7 @@ struct Engine::Impl {
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc, engine::BytesOwner const& holder = {});
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
+    Result<std::vector<OutputSpace>> outputSpaces(NativeWindow window);
     void resize(engine::SwapChainState& state, uint2 size);
     void present(engine::SwapChainState& state);
     void updateBuffer(backend::BufferHandle buffer, uint64_t offset, std::span<const std::byte> data);

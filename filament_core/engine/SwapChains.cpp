@@ -17,14 +17,22 @@ using namespace backend;
 
 void requireSize(uint2 size) { FILAMENT_ASSERT(size.x > 0 && size.y > 0, "a swap chain has at least one pixel"); }
 
+void checkSystem(NativeDisplay const& display, NativeWindow window) {
+    if (window.system == display.system) return;
+    misused(fmt::format("a window of {} needs an engine whose EngineOptions::display is of {}, not of {}",
+                        toString(window.system), toString(window.system), toString(display.system)));
+}
+
 void checkWindow(NativeDisplay const& display, SwapChainDesc const& desc) {
     if (!desc.window) return;
-    if (desc.window.system != display.system) {
-        misused(fmt::format("a window of {} needs an engine whose EngineOptions::display is of {}, not of {}",
-                            toString(desc.window.system), toString(desc.window.system), toString(display.system)));
-    }
-    FILAMENT_ASSERT(desc.format == Format::RGBA8 || desc.format == Format::RGB10A2,
+    checkSystem(display, desc.window);
+    const bool isLinear = desc.outputSpace == OutputSpace::LinearRec709;
+    FILAMENT_ASSERT(isLinear || desc.format != Format::RGBA16F,
                     "a window shows RGBA8 or RGB10A2: tone map linear light first");
+    FILAMENT_ASSERT(!isLinear || desc.format == Format::RGBA16F, "a window of LinearRec709 (scRGB) shows RGBA16F");
+    FILAMENT_ASSERT(desc.outputSpace != OutputSpace::Rec2020Pq || desc.format == Format::RGB10A2,
+                    "a window of Rec2020Pq (HDR10) shows RGB10A2: eight bits would show bands");
+    FILAMENT_ASSERT(desc.peakNits > 0 && desc.peakNits <= 10'000, "a peak is in (0, 10 000] cd/m^2");
 }
 
 /// All of them, or none.
@@ -48,7 +56,12 @@ std::vector<Texture> createImages(Engine::Impl& engine, engine::SwapChainState c
 
 SurfaceHandle createSurface(Engine::Impl& engine, SwapChainDesc const& desc) {
     NewHandle surface(*engine.stream, engine.stream->allocateSurface());
-    engine.pending.record(CmdCreateSurface{ surface, { desc.window.handle, desc.presentMode, desc.name } });
+    engine.pending.record(CmdCreateSurface{ surface,
+                                            { .window = desc.window.handle,
+                                              .presentMode = desc.presentMode,
+                                              .space = desc.outputSpace,
+                                              .peakNits = desc.peakNits,
+                                              .debugName = desc.name } });
     return surface.keep();
 }
 
@@ -115,11 +128,35 @@ void Engine::Impl::destroy(SwapChain swapChain) {
     stream->waitIdle(); // the app may close the window now
 }
 
+Result<std::vector<OutputSpace>> Engine::Impl::outputSpaces(NativeWindow window) {
+    checkSystem(options.display, window);
+    FILAMENT_ASSERT(window, "the window is none");
+    const Ticket ticket = stream->nextTicket();
+    NewHandle surface(*stream, stream->allocateSurface());
+    pending.record(CmdCreateSurface{ surface, { .window = window.handle, .spaces = ticket, .debugName = "asked" } });
+    stream->destroy(pending, surface.keep());
+    flush();
+    const Result<std::vector<std::byte>> answer = stream->waitReadback(ticket);
+    if (!answer) return answer.error();
+    std::vector<OutputSpace> spaces;
+    for (const std::byte space : *answer) spaces.push_back(static_cast<OutputSpace>(space));
+    return spaces;
+}
+
 // ---------------------------------------------------------------------------------------------- the public functions
 
 SwapChain Engine::create(SwapChainDesc const& desc) {
     const PublicCall call(mImpl, "Engine::create(SwapChainDesc)", desc.name);
     return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
+}
+
+Result<std::vector<OutputSpace>> Engine::outputSpaces(NativeWindow window) {
+    const PublicCall call(mImpl, "Engine::outputSpaces(NativeWindow)");
+    try {
+        return mImpl->outputSpaces(window);
+    } catch (std::bad_alloc const&) {
+        return fail(ErrorCode::OutOfMemory, "there is no memory to ask a window for its colour spaces");
+    }
 }
 
 void Engine::resize(SwapChain swapChain, uint2 size) {

@@ -116,6 +116,42 @@ TEST_P(PresentTest, TwoWindowsOfAnEngineShowTheirOwnImages) {
     for (int i : { 0, 1 }) EXPECT_EQ(mServer->pixels(windows[i], sizes[i]), picture.pixels(chains[i])) << i;
 }
 
+Format leastFormat(OutputSpace space) {
+    return space == OutputSpace::LinearRec709 ? Format::RGBA16F
+           : space == OutputSpace::Rec2020Pq  ? Format::RGB10A2
+                                              : Format::RGBA8;
+}
+
+// Xvfb has sRGB alone. A colour space that the window lacks is one line with the cure, and the window can be used.
+TEST_P(PresentTest, ColorSpacesOfAWindowAreAnsweredAndOthersRefused) {
+    if (!isReady()) return;
+    const uint2 size(64, 48);
+    const unsigned long window = mServer->openWindow(size);
+    const Result<std::vector<OutputSpace>> spaces = mEngine->outputSpaces(NativeWindow::x11(window));
+    ASSERT_TRUE(spaces.ok()) << spaces.error().message;
+    EXPECT_THAT(*spaces, testing::Contains(OutputSpace::Srgb));
+    WindowPicture picture(*mEngine);
+    for (const OutputSpace space : { OutputSpace::LinearRec709, OutputSpace::DisplayP3, OutputSpace::Rec2020Pq }) {
+        if (std::ranges::find(*spaces, space) != spaces->end()) continue;
+        const Owned<SwapChain> chain = mEngine->own(mEngine->create(SwapChainDesc{ .size = size,
+                                                                                   .format = leastFormat(space),
+                                                                                   .window = NativeWindow::x11(window),
+                                                                                   .outputSpace = space,
+                                                                                   .name = "wide" }));
+        for (uint32_t frame = 0; frame < 3; ++frame) picture.draw(chain, size, frame);
+        mEngine->waitIdle();
+        const std::vector<std::string> errors = mEngine->takeErrors();
+        ASSERT_EQ(errors.size(), 1u) << toString(space);
+        EXPECT_THAT(errors[0], testing::HasSubstr("window 'wide' shows no"));
+        EXPECT_THAT(errors[0], testing::HasSubstr(toString(space)));
+        EXPECT_THAT(errors[0], testing::HasSubstr("it has srgb: set SwapChainDesc::outputSpace to one of those"));
+    }
+    const Owned<SwapChain> chain = chainOf(window, size);
+    picture.draw(chain, size, 3);
+    mEngine->waitIdle();
+    EXPECT_EQ(mServer->pixels(window, size), picture.pixels(chain));
+}
+
 TEST_P(PresentTest, ThreeHundredFramesCostNoMemoryAndNoMessage) {
     if (!isReady()) return;
     const uint2 size(128, 128);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filament_core/EnumNames.h>
+#include <filament_core/OutputSpace.h>
 
 #include <array>
 #include <cstdint>
@@ -53,18 +54,6 @@ struct ToneCurve {
     float midGreyOut = 0.215f; ///< light of the display, [0.001, 0.99]
     float maximum = 10;        ///< light, [1, 256]
     friend bool operator==(ToneCurve const&, ToneCurve const&) = default;
-};
-
-/// The colour space of display values. Linear outputs (RGBA16F) are linear Rec. 709 with any of them.
-enum class OutputSpace : uint8_t {
-    Srgb,         ///< IEC 61966-2-1
-    LinearRec709, ///< without a transfer function
-    DisplayP3,    ///< the primaries of P3 and D65 with the transfer function of sRGB
-    Rec2020Pq,    ///< ITU-R BT.2100: the primaries of Rec. 2020, SMPTE ST 2084; whiteNits
-};
-template <>
-struct EnumNames<OutputSpace> {
-    static constexpr std::array<std::string_view, 4> values{ "srgb", "linearRec709", "displayP3", "rec2020Pq" };
 };
 
 struct DisplayTransform {

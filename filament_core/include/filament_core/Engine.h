@@ -164,6 +164,9 @@ public:
     Result<LightImage> create(LightImageDesc const& desc);
     RenderTarget create(RenderTargetDesc const& desc);
     SwapChain create(SwapChainDesc const& desc);
+    /// How windows can read what they show (SwapChainDesc::outputSpace); Srgb at least. Waits for the driver thread.
+    /// Ask before a swap chain has the window. Fails: as takeErrors() says where a window cannot be opened; DeviceLost.
+    Result<std::vector<OutputSpace>> outputSpaces(NativeWindow window);
     /// Fails: Corrupt or Unsupported for the package; NotFound with the nearest name for an unknown constant.
     Result<Material> create(MaterialDesc const& desc);
     /// Prepares the programs and pipelines of a material before it is first drawn. The driver thread does this in

@@ -10,6 +10,7 @@
 #include <filament_core/Material.h>
 #include <filament_core/Math.h>
 #include <filament_core/NativeWindow.h>
+#include <filament_core/OutputSpace.h>
 #include <filament_core/Quality.h>
 #include <filament_core/Sampler.h>
 #include <filament_core/Units.h>
@@ -337,6 +338,10 @@ struct SwapChainDesc {
     /// swap chain before the window.
     NativeWindow window{};
     PresentMode presentMode = PresentMode::Fifo; ///< Fifo where the window has no such mode
+    /// How the window reads its codes: one of Engine::outputSpaces(), and View::display.outputSpace of what is drawn to
+    /// it. Rec2020Pq needs RGB10A2; LinearRec709, which is scRGB there, RGBA16F. docs/windows.md, "Colour spaces".
+    OutputSpace outputSpace = OutputSpace::Srgb;
+    float peakNits = 203; ///< cd/m^2 of the brightest pixel with Rec2020Pq, (0, 10 000]: DisplayTransform::whiteNits
     std::string name{};
 };
 
