@@ -6,15 +6,11 @@
 #include <filament_core/Image.h>
 #include <filament_core/Renderer.h>
 
-#include <fmt/format.h>
-
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 
 namespace filament_core::server {
 namespace {
@@ -67,32 +63,22 @@ Result<Engine*> RenderWorker::engineOf(Backend api) {
     return &mEngines.emplace(api, std::move(*engine)).first->second;
 }
 
-Result<std::vector<std::byte>> RenderWorker::draw(RenderRequest const& request) {
+Result<void> RenderWorker::draw(RenderRequest const& request, fs::path const& file) {
     const Result<Engine*> engine = engineOf(request.api);
     if (!engine) return engine.error();
     Result<BuiltScene> built = buildScene(**engine, request.scene, buildOptions(mLimits, request.scene));
     if (!built) return built.error();
     const Result<Image> image = imageOf(**engine, *built, request.format);
     if (!image) return image.error();
-    const fs::path file = mSpool.doneFolder().parent_path() / fmt::format("worker-{}.image", ::getpid());
-    const Result<void> saved = request.format == ImageFormat::Png ? savePng(file, *image) : saveExr(file, *image);
-    if (!saved) return saved.error();
-    std::ifstream in(file, std::ios::binary);
-    const std::vector<char> bytes(std::istreambuf_iterator<char>(in), {});
-    std::error_code ignored;
-    fs::remove(file, ignored);
-    const auto first = reinterpret_cast<const std::byte*>(bytes.data());
-    return std::vector<std::byte>(first, first + bytes.size());
+    return request.format == ImageFormat::Png ? savePng(file, *image) : saveExr(file, *image);
 }
 
 Result<void> RenderWorker::handle(ClaimedJob const& job) {
     JobOutcome outcome{ .error = {}, .contentType = {}, .queuedSeconds = ageOf(job.file) };
     const Clock::time_point begin = Clock::now();
-    std::vector<std::byte> image;
     const Result<RenderRequest> request = parseRequest(job.request, mLimits);
-    Result<std::vector<std::byte>> drawn = request ? draw(*request) : Result<std::vector<std::byte>>(request.error());
+    const Result<void> drawn = request ? draw(*request, mSpool.imageDraft(job)) : Result<void>(request.error());
     if (drawn) {
-        image = std::move(*drawn);
         outcome.contentType = contentType(request->format);
     } else {
         outcome.status = statusOf(drawn.error().code);
@@ -100,7 +86,7 @@ Result<void> RenderWorker::handle(ClaimedJob const& job) {
         if (outcome.status == 500 && request) mEngines.erase(request->api); // the next job has another one
     }
     outcome.renderSeconds = secondsSince(begin);
-    return mSpool.finish(job, outcome, image);
+    return mSpool.finish(job, outcome);
 }
 
 Result<void> RenderWorker::run() {

@@ -24,7 +24,8 @@ public:
 
 private:
     Result<Engine*> engineOf(Backend api);
-    Result<std::vector<std::byte>> draw(RenderRequest const& request);
+    /// Writes the image to `file`.
+    Result<void> draw(RenderRequest const& request, std::filesystem::path const& file);
 
     Spool mSpool;
     RequestLimits mLimits;

@@ -161,10 +161,24 @@ Result<std::optional<ClaimedJob>> Spool::claim() {
     return std::optional<ClaimedJob>{};
 }
 
-Result<void> Spool::finish(ClaimedJob const& job, JobOutcome const& outcome, std::span<const std::byte> image) {
+fs::path Spool::imageDraft(ClaimedJob const& job) const { return mNew / (job.name + ".image"); }
+
+/// On the disk before it has its name.
+Result<void> Spool::putImage(ClaimedJob const& job) const {
+    const fs::path draft = imageDraft(job), to = imageFile(job.name);
+    const int file = ::open(draft.c_str(), O_RDWR | O_CLOEXEC);
+    const bool isOnDisk = file >= 0 && ::fdatasync(file) == 0;
+    if (file >= 0) ::close(file);
+    if (isOnDisk && ::rename(draft.c_str(), to.c_str()) == 0) return {};
+    const Error error = systemError(to, "cannot be written");
+    ::unlink(draft.c_str());
+    return error;
+}
+
+Result<void> Spool::finish(ClaimedJob const& job, JobOutcome const& outcome) {
     // The image first: where there is an outcome, there is its image.
     if (outcome.error.empty()) {
-        if (Result<void> done = write(imageFile(job.name), image); !done) return done;
+        if (Result<void> done = putImage(job); !done) return done;
     }
     const tools::Json json = { { "status", outcome.status },
                                { "error", outcome.error },
@@ -198,9 +212,10 @@ Result<void> Spool::release(long process, bool isToBlame, uint32_t mostTries, st
             continue;
         }
         const uint32_t tries = numberOf(parts[1]) + (isToBlame ? 1 : 0);
+        const ClaimedJob job{ .name = parts[0], .request = {}, .tries = tries, .file = file };
+        ::unlink(imageDraft(job).c_str()); // a part of it
         if (tries >= mostTries) {
-            const ClaimedJob job{ .name = parts[0], .request = {}, .tries = tries, .file = file };
-            if (Result<void> done = finish(job, { .status = status, .error = reason, .contentType = {} }, {}); !done)
+            if (Result<void> done = finish(job, { .status = status, .error = reason, .contentType = {} }); !done)
                 return done;
             continue;
         }

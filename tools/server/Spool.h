@@ -57,8 +57,10 @@ public:
     JobState state(std::string const& name) const;
     /// The oldest one that no other process claims first; nothing: none is queued.
     Result<std::optional<ClaimedJob>> claim();
-    /// `image`: nothing after an error.
-    Result<void> finish(ClaimedJob const& job, JobOutcome const& outcome, std::span<const std::byte> image);
+    /// Where the image of a claimed job is written, before finish() moves it.
+    std::filesystem::path imageDraft(ClaimedJob const& job) const;
+    /// Unless the outcome is an error, imageDraft() is there.
+    Result<void> finish(ClaimedJob const& job, JobOutcome const& outcome);
     std::optional<JobOutcome> outcome(std::string const& name) const;
     std::filesystem::path imageFile(std::string const& name) const;
     /// What a process that has ended had claimed goes back to the queue, or ends with an error if processes have ended
@@ -80,6 +82,7 @@ public:
 
 private:
     Spool(std::filesystem::path const& folder, uint32_t mostQueued);
+    Result<void> putImage(ClaimedJob const& job) const;
     Result<void> write(std::filesystem::path const& to, std::span<const std::byte> bytes) const;
 
     std::filesystem::path mNew, mQueued, mRunning, mDone;

@@ -42,8 +42,9 @@ protected:
         return job && *job ? **job : ClaimedJob{};
     }
     static void finish(Spool& spool, ClaimedJob const& job, std::string_view image) {
-        const Result<void> done =
-                spool.finish(job, { .error = {}, .contentType = "image/png" }, std::as_bytes(std::span(image)));
+        std::ofstream(spool.imageDraft(job), std::ios::binary) << image;
+        const Result<void> done = spool.finish(job, { .error = {}, .contentType = "image/png" });
+        EXPECT_FALSE(fs::exists(spool.imageDraft(job))) << "it is moved";
         EXPECT_TRUE(done) << done.error().message;
     }
 
