@@ -3,6 +3,7 @@
 
 #include "shaders/compiler/FeatureLevels.h"
 #include "shaders/compiler/GlslSuggestions.h"
+#include "shaders/compiler/MaterialMembers.h"
 #include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
@@ -19,6 +20,16 @@ bool hasStandardText(MaterialDefinition const& definition) {
     return model == ShadingModel::Lit || model == ShadingModel::SpecularGlossiness;
 }
 bool isPost(MaterialDefinition const& definition) { return definition.package.domain == MaterialDomain::PostProcess; }
+bool isSurfaceWithOutputs(MaterialDefinition const& definition) {
+    return !isPost(definition) && !definition.outputs.empty();
+}
+bool hasOutputNamedAsMember(MaterialDefinition const& definition) {
+    return std::ranges::any_of(definition.outputs, [&](EffectOutput const& output) {
+        return std::ranges::any_of(materialMembers(), [&](MaterialMember const& member) {
+            return member.name == output.name && member.isMemberOf(definition);
+        });
+    });
+}
 bool hasTwoPasses(MaterialDefinition const& definition) {
     return definition.package.transparency != TransparencyMode::Default;
 }
@@ -37,8 +48,20 @@ constexpr Contradiction kContradictions[] = {
       "a material of the domain postprocess has no vertex block" },
     { [](MaterialDefinition const& d) { return isPost(d) && (d.requiredAttributes != 0 || !d.variables.empty()); },
       "domain", "a material of the domain postprocess reads no attributes and has no variables" },
-    { [](MaterialDefinition const& d) { return !isPost(d) && !d.outputs.empty(); }, "outputs",
-      "outputs are for the domain postprocess; a surface writes its colour and depth" },
+    { [](MaterialDefinition const& d) { return isSurfaceWithOutputs(d) && !isUnlit(d); }, "outputs",
+      "outputs are for the domain postprocess and for surfaces without light; say shadingModel : unlit, and draw them "
+      "by a mesh pass" },
+    { [](MaterialDefinition const& d) {
+         return isSurfaceWithOutputs(d) && std::ranges::any_of(d.outputs, &EffectOutput::isDepth);
+     },
+      "outputs", "the depth of a surface is that of its geometry; set pixelDepthOffset to move it" },
+    { [](MaterialDefinition const& d) {
+         return isSurfaceWithOutputs(d) &&
+                std::ranges::none_of(d.outputs, [](EffectOutput const& output) { return output.location == 0; });
+     },
+      "outputs", "one of the outputs of a surface has location 0" },
+    { [](MaterialDefinition const& d) { return isSurfaceWithOutputs(d) && hasOutputNamedAsMember(d); }, "outputs",
+      "MaterialInputs has a member with the name of an output; give it another" },
     { [](MaterialDefinition const& d) { return d.halfPrecision && !hasStandardText(d); }, "halfPrecision",
       "halfPrecision is only for lit materials and specularGlossiness: no others are computed in 16 bits" },
     { [](MaterialDefinition const& d) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslDeclarations.h"
 
+#include "shaders/compiler/MaterialMembers.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <fmt/core.h>
@@ -173,15 +174,13 @@ void declareCustomVaryings(StageText& out, MaterialDefinition const& definition,
 }
 
 void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32_t firstLocation) {
-    static constexpr const char* kTypes[] = { "float", "vec2", "vec3", "vec4" };
     const std::vector<EffectOutput> usual(1);
     std::string members, clear, write;
     for (EffectOutput const& output : definition.outputs.empty() ? usual : definition.outputs) {
-        const char* const type = kTypes[output.components - 1];
+        const std::string_view type = floatType(output.components);
         const std::string target = output.isDepth ? "gl_FragDepth" : "fragment_" + output.name;
         members += fmt::format("{} {}; ", type, output.name);
-        clear += fmt::format("inputs.{} = {}; ", output.name,
-                             output.components == 4 ? "vec4(0.0, 0.0, 0.0, 1.0)" : fmt::format("{}(0.0)", type));
+        clear += fmt::format("inputs.{} = {}; ", output.name, initialOutput(output.components));
         write += fmt::format("{} = inputs.{}; ", target, output.name);
         if (!output.isDepth)
             out.line(fmt::format("layout(location = {}) out {}{} {};", firstLocation + output.location,
@@ -190,6 +189,22 @@ void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32
     out.define("POST_OUTPUT_MEMBERS", members);
     out.define("POST_CLEAR_OUTPUTS(inputs)", clear);
     out.define("POST_WRITE_OUTPUTS(inputs)", write);
+}
+
+void declareSurfaceOutputs(StageText& out, MaterialDefinition const& definition) {
+    static constexpr const char* kPadding[] = { ", 0.0, 0.0, 1.0", ", 0.0, 1.0", ", 1.0", "" };
+    std::string write;
+    for (EffectOutput const& output : definition.outputs) {
+        const std::string_view type = floatType(output.components);
+        if (output.location == 0) { // declared by fragment_api.glsl, for every variant
+            write += fmt::format("fragment_color = vec4(inputs.{}{}); ", output.name, kPadding[output.components - 1]);
+            continue;
+        }
+        out.line(fmt::format("layout(location = {}) out {}{} fragment_output_{};", output.location,
+                             glslPrecision(output.precision), type, output.name));
+        write += fmt::format("fragment_output_{0} = inputs.{0}; ", output.name);
+    }
+    out.define("SURFACE_WRITE_OUTPUTS(inputs)", write);
 }
 
 void declareTransforms(StageText& out, MaterialDefinition const& definition) {

@@ -25,6 +25,8 @@ bool isSubpassInput(Parameter const& parameter, uint16_t variantKey);
 void declareVariables(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs);
 /// What an effect writes, from this location on, and the macros with which shaders/post uses it.
 void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32_t firstLocation);
+/// What a surface with outputs writes, and the macro with which outputs_main.glsl uses it.
+void declareSurfaceOutputs(StageText& out, MaterialDefinition const& definition);
 /// `materialParams_name` of ParameterSource::transformName.
 void declareTransforms(StageText& out, MaterialDefinition const& definition);
 

@@ -457,8 +457,13 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if (done && isShadowed) done = includeShadows(out, definition.package);
     if (done && !isLit) done = includeFog(out, definition.package);
     if (done && !isLit) done = out.include("shaders/material/surface/output.glsl");
-    if (done && !isLit) done = includeTransparency(out, definition.package);
-    if (done && !isLit) done = out.include("shaders/material/surface/unlit_main.glsl");
+    if (done && !definition.outputs.empty()) {
+        declareSurfaceOutputs(out, definition);
+        done = out.include("shaders/material/surface/outputs_main.glsl");
+    } else {
+        if (done && !isLit) done = includeTransparency(out, definition.package);
+        if (done && !isLit) done = out.include("shaders/material/surface/unlit_main.glsl");
+    }
     if (!done) return done.error();
     return std::move(out).take();
 }

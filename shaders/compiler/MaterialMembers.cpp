@@ -161,12 +161,18 @@ std::string floatLiteral(std::span<const float> components) {
     return fmt::format("{}({})", floatType(static_cast<uint32_t>(components.size())), list);
 }
 
+std::string initialOutput(uint32_t components) {
+    return components == 4 ? "vec4(0.0, 0.0, 0.0, 1.0)" : fmt::format("{}(0.0)", floatType(components));
+}
+
 void declareMaterialInputs(StageText& out, MaterialDefinition const& definition) {
     out.line("struct MaterialInputs {");
     for (MaterialMember const& member : kMembers) {
         if (member.isMemberOf(definition))
             out.line(fmt::format("    {} {};", floatType(member.components), member.name));
     }
+    for (EffectOutput const& output : definition.outputs)
+        out.line(fmt::format("    {} {};", floatType(output.components), output.name));
     out.line("};");
     out.line("void initMaterial(out MaterialInputs material) {");
     for (MaterialMember const& member : kMembers) {
@@ -174,6 +180,8 @@ void declareMaterialInputs(StageText& out, MaterialDefinition const& definition)
         const auto initial = std::span(member.initial).first(member.components);
         out.line(fmt::format("    material.{} = {};", member.name, floatLiteral(initial)));
     }
+    for (EffectOutput const& output : definition.outputs)
+        out.line(fmt::format("    material.{} = {};", output.name, initialOutput(output.components)));
     out.line("}");
 }
 
@@ -185,6 +193,8 @@ void defineObserverMain(StageText& out, MaterialDefinition const& definition) {
         if (!member.isMemberOf(definition)) continue;
         out.line(fmt::format("fragment_color.{} += observed.{};", kSwizzles[member.components - 1], member.name));
     }
+    for (EffectOutput const& output : definition.outputs)
+        out.line(fmt::format("fragment_color.{} += observed.{};", kSwizzles[output.components - 1], output.name));
     out.line("}");
 }
 

@@ -39,7 +39,10 @@ std::span<const MaterialMember> materialMembers();
 /// Index into materialMembers() -> its bit in MaterialNeeds::terms.
 constexpr uint64_t termBit(size_t member) { return uint64_t{ 1 } << member; }
 
-/// struct MaterialInputs and initMaterial().
+/// What an output of that many components holds unless the code sets it: 0, and alpha 1.
+std::string initialOutput(uint32_t components);
+
+/// struct MaterialInputs and initMaterial(); the outputs of a surface are members, too.
 void declareMaterialInputs(StageText& out, MaterialDefinition const& definition);
 /// A main() that hands the sum of all members, as material() leaves them, to the output.
 void defineObserverMain(StageText& out, MaterialDefinition const& definition);

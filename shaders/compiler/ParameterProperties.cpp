@@ -410,8 +410,9 @@ constexpr ListProperty kLists[] = {
     { "variables", kVariableFields, "a value that the vertex block gives to the fragment block; or its name alone",
       "`material.NAME` in the vertex block, `variable_NAME` in the fragment block", kMaxVariables, readVariable },
     { "outputs", kOutputFields,
-      "of effects: a colour attachment, or with `target : depth` the depth; `color` alone if there are none",
-      "`inputs.NAME`", kMaxOutputs, readOutput },
+      "of effects: a colour attachment, or with `target : depth` the depth; `color` alone if there are none. Of unlit "
+      "surfaces: a colour attachment of a mesh pass",
+      "`inputs.NAME`, of surfaces `material.NAME`", kMaxOutputs, readOutput },
     { "variantFilter",
       {},
       "a [variant](#variants) that is left out, which makes the package smaller",

@@ -136,8 +136,34 @@ TEST(LaterLanguage, RefusesOutputsThatContradict) {
     EXPECT_EQ(of("{ name : a, qualifier : inout }"),
               "a.mat:3: an output is only written; to read the pixel, declare a parameter with currentPixel : true");
     EXPECT_EQ(of("{ name : a, location : 8 }"), "a.mat:3: 'location' must lie in [0, 7], it is 8");
-    EXPECT_EQ(messageOfLater(surfaceOfLater("outputs : [ { name : a } ]")),
-              "a.mat:2: outputs are for the domain postprocess; a surface writes its colour and depth");
+    const auto ofSurface = [](std::string const& outputs, std::string const& model = "unlit") {
+        return messageOfLater(surfaceOfLater("shadingModel : " + model + ", outputs : [ " + outputs + " ]"));
+    };
+    EXPECT_EQ(ofSurface("{ name : a }", "lit"),
+              "a.mat:2: outputs are for the domain postprocess and for surfaces without light; say shadingModel : "
+              "unlit, and draw them by a mesh pass");
+    EXPECT_EQ(ofSurface("{ name : a }, { name : b, target : depth }"),
+              "a.mat:2: the depth of a surface is that of its geometry; set pixelDepthOffset to move it");
+    EXPECT_EQ(ofSurface("{ name : a, location : 1 }"), "a.mat:2: one of the outputs of a surface has location 0");
+    EXPECT_EQ(ofSurface("{ name : emissive }"),
+              "a.mat:2: MaterialInputs has a member with the name of an output; give it another");
+    EXPECT_EQ(ofSurface("{ name : roughness }"), "compiles") << "which unlit materials do not have";
+}
+
+TEST(LaterLanguage, HasSeveralOutputsOfASurface) {
+    const auto package =
+            compileMaterial(surfaceOfLater("shadingModel : unlit, outputs : [ { name : color, type : float2 }, { name "
+                                           ": b, precision : medium },\n"
+                                           "{ name : c, type : float } ]",
+                                           "material.color = vec2(0.25); material.b = vec4(1.0); material.c = 0.5;"),
+                            "a.mat");
+    ASSERT_TRUE(package) << package.error().message;
+    for (Variant const& variant : package->variants) {
+        const bool isPlain = (variant.key & ~kVariantSkinning) == 0;
+        std::string const& code = variant.fragment->essl;
+        for (const char* location : { "layout(location = 1) out", "layout(location = 2) out" })
+            EXPECT_EQ(code.find(location) != std::string::npos, isPlain) << variant.key << code;
+    }
 }
 
 TEST(LaterLanguage, HasFiveVariablesWithAndWithoutAnInstanceIndex) {
