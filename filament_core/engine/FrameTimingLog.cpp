@@ -22,6 +22,35 @@ double milliseconds(FrameTimingLog::TimePoint from, FrameTimingLog::TimePoint to
 
 } // namespace
 
+FrameTimingLog::FrameTimingLog(Engine::Impl& engine) : mEngine(engine) {
+    for (Dependent* dependent : engine.dependents) {
+        if (auto const* other = dynamic_cast<FrameTimingLog const*>(dependent))
+            mRange = std::max(mRange, other->mRange + 1);
+    }
+    engine.dependents.push_back(this);
+    mIsListed = true;
+}
+
+FrameTimingLog::~FrameTimingLog() {
+    if (mIsListed) std::erase(mEngine.dependents, this);
+}
+
+FrameTimingLog* FrameTimingLog::logOf(uint64_t numberInStream) {
+    for (Dependent* dependent : mEngine.dependents) {
+        auto* const log = dynamic_cast<FrameTimingLog*>(dependent);
+        if (log && log->mRange == numberInStream >> kFrameBits) return log;
+    }
+    return nullptr; // its renderer is gone
+}
+
+void FrameTimingLog::keep(backend::FrameTiming const& replay) {
+    const uint64_t frame = frameOf(replay.frame);
+    Record& record = mRecords[frame % mRecords.size()];
+    if (record.frame != frame || record.taken) return;
+    record.replay = replay;
+    record.replayed = true;
+}
+
 void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers) {
     collectTimers(); // the stream keeps answers only for a limited time
     // Without memory the frame is drawn and its passes have no times.
@@ -56,17 +85,15 @@ void FrameTimingLog::traceReplay(backend::FrameTiming const& replay) {
     jobs::JobTrace& trace = *mEngine.jobs.trace();
     const char* name = replay.isFrame ? "replay frame" : "replay set-up";
     trace.span(trace.track("driver thread"), name, replay.replayBegin, replay.replayEnd,
-               replay.isFrame ? static_cast<int64_t>(replay.frame) : -1);
+               replay.isFrame ? static_cast<int64_t>(frameOf(replay.frame)) : -1);
 }
 
 void FrameTimingLog::collectReplays() {
     mEngine.stream->takeTimings(mReplays);
     for (backend::FrameTiming const& replay : mReplays) {
         if (mEngine.jobs.trace()) traceReplay(replay);
-        Record& record = mRecords[replay.frame % mRecords.size()];
-        if (!replay.isFrame || record.frame != replay.frame || record.taken) continue;
-        record.replay = replay;
-        record.replayed = true;
+        if (!replay.isFrame) continue;
+        if (FrameTimingLog* const log = logOf(replay.frame)) log->keep(replay);
     }
 }
 

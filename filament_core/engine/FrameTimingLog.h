@@ -21,9 +21,16 @@
 
 namespace filament_core::engine {
 
-class FrameTimingLog {
+class FrameTimingLog final : public Dependent {
 public:
-    explicit FrameTimingLog(Engine::Impl& engine) : mEngine(engine) {}
+    explicit FrameTimingLog(Engine::Impl& engine);
+    FrameTimingLog(FrameTimingLog const&) = delete;
+    ~FrameTimingLog();
+    void release() noexcept override { mIsListed = false; }
+
+    /// Of CmdBeginFrame: the logs of an engine count their frames in ranges of their own, since whichever asks the
+    /// stream for replays gets those of all. The first log's are the frames themselves.
+    uint64_t numberInStream(uint64_t frame) const { return mRange << kFrameBits | frame; }
 
     using TimePoint = std::chrono::steady_clock::time_point;
     struct Stamps {
@@ -77,6 +84,11 @@ private:
         bool taken = true;
     };
 
+    static constexpr uint32_t kFrameBits = 40;
+    static uint64_t frameOf(uint64_t numberInStream) { return numberInStream & ((uint64_t{ 1 } << kFrameBits) - 1); }
+
+    FrameTimingLog* logOf(uint64_t numberInStream);
+    void keep(backend::FrameTiming const& replay);
     void traceFrame(Record const& record);
     void traceReplay(backend::FrameTiming const& replay);
     void collectReplays();
@@ -86,7 +98,9 @@ private:
     static double deviceMilliseconds(Record const& record);
     static double replayMilliseconds(Record const& record);
 
-    Engine::Impl& mEngine;
+    Engine::Impl& mEngine; ///< while it is listed there
+    bool mIsListed = false;
+    uint64_t mRange = 0; ///< no other log of the engine has it
     std::array<Record, 64> mRecords{};
     size_t mPassRoom = 0;                       ///< of every record
     uint64_t mNewest = 0, mVisited = 0;         ///< frames

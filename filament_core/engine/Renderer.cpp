@@ -246,8 +246,9 @@ struct Renderer::Impl final : engine::Dependent {
     void recordFrame(FrameContext& context, Target const& target) {
         FrameCommands commands(*engine.stream); // waits when two frames ahead
         stamps.acquired = clock();
-        commands->record(CmdBeginFrame{ ++frame });
-        const InReserve<CmdEndFrame> end{ *commands, { frame } };
+        const uint64_t number = timings.numberInStream(++frame);
+        commands->record(CmdBeginFrame{ number });
+        const InReserve<CmdEndFrame> end{ *commands, { number } };
         // What the frame binds is made first: instances whose groups the filter needs are pending, then everything
         // pending, then programs that an earlier compile() asked for. Memory may run out while the frame is recorded:
         // the atlas forgets its maps before the frame draws over them, and keeps them when all of it is recorded.
@@ -419,10 +420,7 @@ struct Renderer::Impl final : engine::Dependent {
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
     struct Alone {
-        explicit Alone(Engine& of) : renderer(of), nothing(of) {
-            // Replays are found by their number: these are not to be taken for frames of views.
-            renderer.mImpl->frame = uint64_t{ 1 } << 32;
-        }
+        explicit Alone(Engine& of) : renderer(of), nothing(of) {}
         Renderer renderer;
         Scene nothing;
     };

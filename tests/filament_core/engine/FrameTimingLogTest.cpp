@@ -19,14 +19,14 @@ protected:
         std::vector<std::string> names(passes);
         std::vector<framegraph::PassTimer> timers(passes);
         backend::CommandBuffer& commands = stream.acquire();
-        commands.record(backend::CmdBeginFrame{ number });
+        commands.record(backend::CmdBeginFrame{ log.numberInStream(number) });
         for (size_t i = 0; i < passes; ++i) {
             names[i] = "pass " + std::to_string(i);
             timers[i] = { names[i], stream.nextTicket() };
             commands.record(backend::CmdBeginTimer{ timers[i].ticket });
             commands.record(backend::CmdEndTimer{ timers[i].ticket });
         }
-        commands.record(backend::CmdEndFrame{ number });
+        commands.record(backend::CmdEndFrame{ log.numberInStream(number) });
         stream.submit(commands);
         log.add(number, {}, timers);
     }
@@ -60,6 +60,45 @@ TEST_F(FrameTimingLogTest, FramesWithMoreAndWithFewerPassesFollowEachOther) {
     const std::vector<FrameTimings> timings = log.take();
     ASSERT_EQ(timings.size(), counts.size());
     for (size_t i = 0; i < counts.size(); ++i) expectPasses(timings[i], counts[i]);
+}
+
+// Whichever is asked first gets the replays of both from the stream.
+TEST_F(FrameTimingLogTest, LogsOfOneEngineHaveEachTheirOwnFrames) {
+    FrameTimingLog first(mEngine->impl());
+    {
+        FrameTimingLog gone(mEngine->impl());
+        frame(gone, 1, 5);
+    }
+    FrameTimingLog second(mEngine->impl());
+    for (uint64_t number = 1; number <= 3; ++number) {
+        frame(first, number, 1);
+        frame(second, number, 2);
+        if (number == 2) mEngine->impl().stream->waitIdle();
+    }
+    mEngine->impl().stream->waitIdle();
+    const std::vector<FrameTimings> ofFirst = first.take(), ofSecond = second.take();
+    ASSERT_EQ(ofFirst.size(), 3u);
+    ASSERT_EQ(ofSecond.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(ofFirst[i].frame, i + 1);
+        EXPECT_EQ(ofSecond[i].frame, i + 1);
+        expectPasses(ofFirst[i], 1);
+        expectPasses(ofSecond[i], 2);
+        EXPECT_LE(ofFirst[i].replayEndSeconds, ofSecond[i].replayBeginSeconds) << "of its own replay";
+    }
+}
+
+TEST_F(FrameTimingLogTest, RenderersDrawnInTurnsTellAllOfTheirFrames) {
+    Scene scene(*mEngine);
+    Renderer left(*mEngine), right(*mEngine);
+    const Owned<SwapChain> target = mEngine->own(mEngine->create(SwapChainDesc{ .size = { 8, 8 } }));
+    for (int frame = 0; frame < 4; ++frame) {
+        left.render(scene, View{ .size = { 8, 8 } }, target);
+        right.render(scene, View{ .size = { 8, 8 } }, target);
+    }
+    mEngine->waitIdle();
+    EXPECT_EQ(left.takeTimings().size(), 4u);
+    EXPECT_EQ(right.takeTimings().size(), 4u);
 }
 
 // 64 frames of 40 passes have more answers than the stream keeps.
