@@ -78,4 +78,18 @@ scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, Fra
     return nullptr;
 }
 
+Error samplesTarget(scene::MaterialInstance const& material, FrameTarget const& target) {
+    return fail(ErrorCode::InvalidArgument,
+                "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another render "
+                "target, or hide what has the material by View::visibleLayers",
+                material.name.empty() ? material.material->name : material.name, target.color.name);
+}
+
+Error dirtIsTarget(FrameTarget const& target) {
+    return fail(ErrorCode::InvalidArgument,
+                "a frame is left out: the dirt of bloom is '{}', which the frame draws to; draw to another render "
+                "target",
+                target.color.name);
+}
+
 } // namespace filament_core::engine

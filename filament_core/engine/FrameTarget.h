@@ -42,4 +42,8 @@ std::array<backend::TextureHandle, kMostOthers + 2> texturesOf(Engine::Impl& eng
 /// The material that samples the frame's own target; null: none does.
 scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, FrameTarget const& target);
 
+/// Why such a frame is left out.
+Error samplesTarget(scene::MaterialInstance const& material, FrameTarget const& target);
+Error dirtIsTarget(FrameTarget const& target);
+
 } // namespace filament_core::engine

@@ -16,12 +16,12 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
 #include "filament_core/engine/TextureStreamer.h"
+#include "filament_core/engine/ViewsOfFrames.h"
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/FogLightPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/SplatPass.h"
-#include "filament_core/prepare/DebugViews.h"
 #include "filament_core/prepare/GuardBand.h"
 #include "filament_core/prepare/PlaceGrids.h"
 #include "filament_core/prepare/PrepareFrame.h"
@@ -34,7 +34,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -42,58 +41,24 @@ namespace filament_core {
 namespace {
 
 using namespace backend;
+using engine::checkNumbers;
+using engine::checkPlace;
+using engine::joinsLastImage;
 using engine::PublicCall;
+using engine::wholeInputOf;
+using engine::withDebugViewOf;
 using Target = engine::FrameTarget;
 using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
-
-/// As if all of the view's pixels were drawn, and no others. `effects`: of the view, clamped.
-prepare::ViewInput wholeInputOf(View const& view, Effects effects, uint64_t contents) {
-    effects.resolution.scale = float2(1);
-    effects.guardBand.enabled = false;
-    return prepare::viewInput(view, effects, contents);
-}
 
 bool isDirtOf(FrameContext const& context, Target const& target) {
     const TextureHandle dirt = context.resources.dirt.texture;
     return dirt && (dirt == target.color.handle || (target.depth && dirt == target.depth->handle));
 }
 
-/// `target`: pixels.
-void checkPlace(View const& view, uint2 target) {
-    FILAMENT_ASSERT(view.size.x > 0 && view.size.y > 0, "a view has at least one pixel");
-    if (!view.viewport) {
-        FILAMENT_ASSERT(view.size == target,
-                        "a view without a viewport has the size of its swap chain or render target");
-        return;
-    }
-    const uint2 offset = view.viewport->offset;
-    FILAMENT_ASSERT(offset.x <= target.x && view.size.x <= target.x - offset.x && offset.y <= target.y &&
-                            view.size.y <= target.y - offset.y,
-                    "a viewport lies in its target: offset + View::size is at most the target's size");
-    const float4 clear = view.viewport->clearColor;
-    FILAMENT_ASSERT(std::isfinite(clear.x + clear.y + clear.z + clear.w), "a viewport's clearColor is finite");
-}
-
-/// Numbers are drawn by the debug view that shows them.
-View withDebugViewOf(View const& view) {
-    View shown = view;
-    shown.debugView = prepare::debugViewOf(view.aov);
-    return shown;
-}
-
-void checkNumbers(View const& view, Format target) {
-    FILAMENT_ASSERT((view.aov != Aov::None) == (target == Format::RGBA32F),
-                    "View::aov is drawn to a render target of RGBA32F, and nothing else is");
-    FILAMENT_ASSERT(view.aov == Aov::None || view.debugView == DebugView::None,
-                    "a view has either an aov or a debugView");
-}
-
 /// Numbers leave what a renderer keeps of its frames as it is: all but motion, which counts from one to the next.
 bool isKept(View const& view) { return view.aov == Aov::None || view.aov == Aov::Motion; }
-
-bool joinsLastImage(View const& view) { return view.viewport && view.viewport->contents == TargetContents::Keep; }
 
 } // namespace
 
@@ -288,8 +253,8 @@ struct Renderer::Impl final : engine::Dependent {
         FrameContext& context = planFrame(scene, view, effects, target, PipelineSource(engine.pipelines), transients);
         scene::MaterialInstance const* material = target.state ? samplerOf(context.packet, target) : nullptr;
         // After the plan, which knows what is drawn, and before anything is recorded: the frame can still be left out.
-        if (material) return samplesTarget(*material, target);
-        if (target.state && isDirtOf(context, target)) return dirtIsTarget(target);
+        if (material) return leaveOut(engine::samplesTarget(*material, target));
+        if (target.state && isDirtOf(context, target)) return leaveOut(engine::dirtIsTarget(target));
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
@@ -310,21 +275,6 @@ struct Renderer::Impl final : engine::Dependent {
         return error;
     }
 
-    Error samplesTarget(scene::MaterialInstance const& material, Target const& target) {
-        return leaveOut(fail(
-                ErrorCode::InvalidArgument,
-                "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another render "
-                "target, or hide what has the material by View::visibleLayers",
-                material.name.empty() ? material.material->name : material.name, target.color.name));
-    }
-
-    Error dirtIsTarget(Target const& target) {
-        return leaveOut(fail(ErrorCode::InvalidArgument,
-                             "a frame is left out: the dirt of bloom is '{}', which the frame draws to; draw to "
-                             "another render target",
-                             target.color.name));
-    }
-
     /// On an error the frame was left out, because memory or a target was missing. Whatever was created on the way
     /// serves the next frame.
     Result<void> render(Scene const& scene, View const& view, Target const& target) {
@@ -335,7 +285,8 @@ struct Renderer::Impl final : engine::Dependent {
             // Outside of the frame: callbacks of finished compilations may compile and destroy materials.
             engine.compilations.collect(engine.stream->replayedSubmissions());
             if (engine.streamer) engine.streamer->beginFrame();
-            Result<void> drawn = drawFrame(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target);
+            Result<void> drawn =
+                    withDebugViewOf(view, [&](View const& shown) { return drawFrame(scene, shown, target); });
             if (!drawn) return drawn;
             // Only once the frame is recorded: what failed has drawn nothing.
             target.keepContents(engine);
@@ -375,7 +326,7 @@ struct Renderer::Impl final : engine::Dependent {
             Result<void> usable = checkPasses(view, target);
             if (!usable) return engine.report(usable.error().message);
             std::vector<passes::FullScreenRequest> requests;
-            rehearse(scene, view.aov == Aov::None ? view : withDebugViewOf(view), target, requests);
+            withDebugViewOf(view, [&](View const& shown) { rehearse(scene, shown, target, requests); });
             engine.dispatches.makeExpected(engine.pending);
             if (view.quality.shadows != ShadowFilter::Off)
                 engine.pipelines.slot(passes::shadowSlot(view.quality, view.section.isUsed()));
