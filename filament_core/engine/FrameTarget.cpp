@@ -12,7 +12,7 @@ uint2 FrameTarget::size() const {
 void FrameTarget::keepContents(Engine::Impl& engine) const {
     color.hasContents = true;
     if (state) state->hasContents = true;
-    if (depth && !isAlone) depth->hasContents = true;
+    if (depth && (!isAlone || meshes)) depth->hasContents = true;
     if (!isAlone) return;
     for (const Texture other : state->others) engine.textures.held(other).hasContents = true;
 }

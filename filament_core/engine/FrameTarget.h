@@ -7,6 +7,8 @@
 #include "filament_core/passes/Frame.h"
 #include "filament_core/prepare/FramePacket.h"
 
+#include <filament_core/MeshPass.h>
+
 #include <array>
 
 namespace filament_core::engine {
@@ -16,6 +18,7 @@ struct FrameTarget {
     TextureState* depth = nullptr;      ///< none: unused
     RenderTargetState* state = nullptr; ///< none: an image of a swap chain
     bool isAlone = false;               ///< drawn to by a pass of the app, without a view
+    MeshPass const* meshes = nullptr;   ///< of isAlone: a pass over a scene; none: without one
 
     uint8_t level() const { return state ? state->level : uint8_t{ 0 }; }
     uint16_t layer() const { return state ? state->layer : uint16_t{ 0 }; }

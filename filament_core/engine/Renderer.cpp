@@ -9,6 +9,7 @@
 #include "filament_core/engine/FrameTarget.h"
 #include "filament_core/engine/FrameTimingLog.h"
 #include "filament_core/engine/ImageTarget.h"
+#include "filament_core/engine/MeshPasses.h"
 #include "filament_core/engine/Picker.h"
 #include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/PostProcess.h"
@@ -145,7 +146,7 @@ struct Renderer::Impl final : engine::Dependent {
         const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views,
                                                                   shadows.held(), last, probes.held(), &fields);
-        if (engine.streamer && !pipelines.isRequesting())
+        if (engine.streamer && !pipelines.isRequesting() && !target.isAlone)
             engine.streamer->note(engine.jobs, arena, scene.impl().data, packet);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
@@ -155,12 +156,19 @@ struct Renderer::Impl final : engine::Dependent {
         useKept(context, pipelines);
         blocks.begin();
         context.blocks = &blocks;
-        if (target.isAlone)
+        describe(context, target, output);
+        plan = compile(graph, pool);
+        return context;
+    }
+
+    void describe(FrameContext& context, Target const& target, FrameOutput const& output) {
+        mesh = target.meshes ? engine::meshDrawOf(engine, arena, *target.meshes) : nullptr;
+        if (mesh)
+            passes::describeMeshPass(graph, context, *mesh, output, otherOutputsOf(engine, target));
+        else if (target.isAlone)
             passes::describeAppPass(graph, context, output, otherOutputsOf(engine, target));
         else
             passes::describeFrame(graph, context, output);
-        plan = compile(graph, pool);
-        return context;
     }
 
     void useFogHistory(FrameContext& context, bool isExpected) {
@@ -195,7 +203,9 @@ struct Renderer::Impl final : engine::Dependent {
 
     Result<void> checkPasses(View const& view, Target const& target) {
         const auto drawn = texturesOf(engine, target);
-        return engine::checkPostProcess(engine, view, { drawn, target.isAlone, target.colors() });
+        const engine::PassTargets to{ drawn, target.isAlone, target.colors() };
+        return target.meshes ? engine::checkMeshPass(engine, *target.meshes, to)
+                             : engine::checkPostProcess(engine, view, to);
     }
 
     /// Out of memory: the next frame starts without history.
@@ -251,7 +261,12 @@ struct Renderer::Impl final : engine::Dependent {
         chooseShare(effects.resolution);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext& context = planFrame(scene, view, effects, target, PipelineSource(engine.pipelines), transients);
-        scene::MaterialInstance const* material = target.state ? samplerOf(context.packet, target) : nullptr;
+        if (target.meshes) {
+            Result<void> fits = engine::checkMeshDraws(engine, *target.meshes, context.packet.mainView());
+            if (!fits) return leaveOut(fits.error());
+        }
+        const bool samples = target.state && !target.isAlone; // materials of objects may
+        scene::MaterialInstance const* material = samples ? samplerOf(context.packet, target) : nullptr;
         // After the plan, which knows what is drawn, and before anything is recorded: the frame can still be left out.
         if (material) return leaveOut(engine::samplesTarget(*material, target));
         if (target.state && isDirtOf(context, target)) return leaveOut(engine::dirtIsTarget(target));
@@ -306,13 +321,39 @@ struct Renderer::Impl final : engine::Dependent {
         return drawn;
     }
 
-    /// By a renderer of their own: what this one keeps of its frames stays.
-    void renderAlone(MaterialInstance pass, View const& view, Target target) {
+    /// By a renderer of their own: what this one keeps of its frames stays. Calls `use(Renderer::Impl, empty scene)`.
+    template <class Use>
+    void useAlone(Target& target, Use&& use) {
         engine.orReport("a pass", target.color.name, [&] {
             if (!alone) alone = std::make_unique<Alone>(*engine.self);
             target.isAlone = true;
+            use(*alone->renderer.mImpl, alone->nothing);
+        });
+    }
+
+    void renderAlone(MaterialInstance pass, View const& view, Target target) {
+        useAlone(target, [&](Impl& by, Scene const& nothing) {
             const PostProcessPass only{ pass, PassPlace::Last };
-            (void)alone->renderer.mImpl->render(alone->nothing, engine::viewOfPass(only, view, target.size()), target);
+            (void)by.render(nothing, engine::viewOfPass(only, view, target.size()), target);
+        });
+    }
+    void prewarmAlone(MaterialInstance pass, View const& view, Target target) {
+        useAlone(target, [&](Impl& by, Scene const& nothing) {
+            const PostProcessPass only{ pass, PassPlace::Last };
+            by.prewarm(nothing, engine::viewOfPass(only, view, target.size()), target);
+        });
+    }
+
+    void renderMeshes(Scene const& scene, MeshPass const& pass, View const& view, Target target) {
+        target.meshes = &pass;
+        useAlone(target, [&](Impl& by, Scene const&) {
+            (void)by.render(scene, engine::viewOfMeshPass(view, target.size()), target);
+        });
+    }
+    void prewarmMeshes(Scene const& scene, MeshPass const& pass, View const& view, Target target) {
+        target.meshes = &pass;
+        useAlone(target, [&](Impl& by, Scene const&) {
+            by.prewarm(scene, engine::viewOfMeshPass(view, target.size()), target);
         });
     }
 
@@ -320,7 +361,7 @@ struct Renderer::Impl final : engine::Dependent {
 
     /// The passes of such a frame become slots of the pipeline cache; their own pipelines are requested.
     void prewarm(Scene const& scene, View const& view, Target const& target) {
-        checkNumbers(view, target.color.desc.format);
+        if (!target.isAlone) checkNumbers(view, target.color.desc.format);
         try {
             const jobs::AdoptedThread seat(engine.jobs);
             Result<void> usable = checkPasses(view, target);
@@ -335,6 +376,7 @@ struct Renderer::Impl final : engine::Dependent {
                                           .requests = { { .slot = request.slot, .isFullScreen = true } } },
                                         CompilePriority::Critical);
             }
+            if (mesh) engine::requestMeshPipelines(engine, *mesh);
         } catch (std::bad_alloc const&) {
             engine.reportOutOfMemory("expecting a frame");
         }
@@ -392,6 +434,7 @@ struct Renderer::Impl final : engine::Dependent {
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;
     framegraph::CompiledGraph plan;
+    passes::MeshDraw* mesh = nullptr; ///< of the plan; null: it has no mesh pass
     std::vector<framegraph::PassTimer> timers;
     engine::FrameTimingLog::Stamps stamps; ///< of the frame that is made now
     engine::FrameTimingLog timings;
@@ -433,6 +476,12 @@ void Renderer::render(MaterialInstance pass, RenderTarget target, View const& vi
     mImpl->renderAlone(pass, view, engine::targetOf(mImpl->engine, target));
 }
 
+void Renderer::render(Scene const& scene, MeshPass const& pass, RenderTarget target, View const& view) {
+    const PublicCall call(mImpl, "Renderer::render(Scene, MeshPass, RenderTarget, View)");
+    mImpl->check(scene);
+    mImpl->renderMeshes(scene, pass, view, engine::targetOf(mImpl->engine, target));
+}
+
 void Renderer::present(SwapChain swapChain) {
     const PublicCall call(mImpl, "Renderer::present(SwapChain)");
     engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
@@ -456,6 +505,17 @@ void Renderer::prewarm(Scene const& scene, View const& view, RenderTarget target
     const PublicCall call(mImpl, "Renderer::prewarm(Scene, View, RenderTarget)");
     mImpl->check(scene);
     mImpl->prewarm(scene, view, engine::targetOf(mImpl->engine, target));
+}
+
+void Renderer::prewarm(MaterialInstance pass, RenderTarget target, View const& view) {
+    const PublicCall call(mImpl, "Renderer::prewarm(MaterialInstance, RenderTarget, View)");
+    mImpl->prewarmAlone(pass, view, engine::targetOf(mImpl->engine, target));
+}
+
+void Renderer::prewarm(Scene const& scene, MeshPass const& pass, RenderTarget target, View const& view) {
+    const PublicCall call(mImpl, "Renderer::prewarm(Scene, MeshPass, RenderTarget, View)");
+    mImpl->check(scene);
+    mImpl->prewarmMeshes(scene, pass, view, engine::targetOf(mImpl->engine, target));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {

@@ -41,12 +41,16 @@ uint8_t jointSetsOf(backend::VertexLayout const& vertices) {
     return hasAttribute(vertices, Attribute::Joints1) && hasAttribute(vertices, Attribute::Weights1) ? 2 : 1;
 }
 
-void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices) {
+std::string missingAttributes(scene::Material const& material, backend::VertexLayout const& vertices) {
     uint32_t missing = material.package.requiredAttributes & ~material.optionalAttributes;
     for (backend::VertexAttribute const& attribute : std::span(vertices.attributes).first(vertices.attributeCount))
         missing &= ~(1u << attribute.location);
-    if (missing != 0)
-        misused(fmt::format("the vertex buffer lacks what material '{}' reads: {}", material.name, namesOf(missing)));
+    return namesOf(missing);
+}
+
+void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices) {
+    if (const std::string missing = missingAttributes(material, vertices); !missing.empty())
+        misused(fmt::format("the vertex buffer lacks what material '{}' reads: {}", material.name, missing));
 }
 
 } // namespace filament_core::engine

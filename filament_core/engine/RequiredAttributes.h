@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// RequiredAttributes: whether vertices have the attributes that a material reads.
-///   Fails   ends the process, with the material and the names of what is missing: shaders would read zeros.
+///   Fails   requireAttributes(), jointSetsOf(): end the process, with the material and the names of what is
+///           missing: shaders would read zeros.
 ///   Thread  any; pure.
 #pragma once
 
@@ -19,6 +20,8 @@ uint8_t jointSetsOf(backend::VertexLayout const& vertices);
 /// As shaders call it.
 std::string nameOf(Attribute attribute);
 
+/// Their names; empty: none are.
+std::string missingAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
 void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
 
 } // namespace filament_core::engine

@@ -10,6 +10,7 @@
 
 #include <filament_core/Engine.h>
 #include <filament_core/Image.h>
+#include <filament_core/MeshPass.h>
 #include <filament_core/Scene.h>
 #include <filament_core/View.h>
 
@@ -111,6 +112,10 @@ public:
     /// cannot be drawn is left out, and takeErrors() names the material, the reason and the cure. History, statistics
     /// and explain() of views do not change.
     void render(MaterialInstance pass, RenderTarget target, View const& view = {});
+    /// Draws the objects of a scene with one material into a target (MeshPass.h). Of `view` it sees camera, lod,
+    /// timeSeconds, materialGlobals, visibleLayers and quality.textureFilter; its size is that of the target. Returns
+    /// at once. History, statistics and explain() of views do not change.
+    void render(Scene const& scene, MeshPass const& pass, RenderTarget target, View const& view = {});
 
     /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before
     /// it have not reached the window yet: then it waits for the first of them, so that the app is never further ahead.
@@ -123,6 +128,10 @@ public:
     /// drawing. Only the scene's environment matters, not its contents.
     void prewarm(Scene const& scene, View const& view, SwapChain swapChain);
     void prewarm(Scene const& scene, View const& view, RenderTarget target);
+    /// Of render() of these arguments. Of a mesh pass: for the objects that it would draw now; the depths that
+    /// keepsHoles draws are those of the objects' own materials, for Engine::compile().
+    void prewarm(MaterialInstance pass, RenderTarget target, View const& view = {});
+    void prewarm(Scene const& scene, MeshPass const& pass, RenderTarget target, View const& view = {});
 
     /// Requests the pixels rendered last; poll takePixels() for them. A ticket of 0 means out of memory. If pixels
     /// never arrive, because the device refused the image or was lost, takePixels() returns an image without bytes, and

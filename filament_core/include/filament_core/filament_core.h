@@ -34,6 +34,7 @@
 #include <filament_core/Material.h>
 #include <filament_core/Math.h>
 #include <filament_core/Mesh.h>
+#include <filament_core/MeshPass.h>
 #include <filament_core/ModelCopy.h>
 #include <filament_core/NativeWindow.h>
 #include <filament_core/Node.h>

@@ -45,6 +45,25 @@ struct PassStage {
         view.postProcess = passes;
         return instances.back();
     }
+    MaterialInstance instance(std::string const& text) {
+        materials.push_back(loadMaterial(engine, text));
+        instances.push_back(engine.own(engine.createInstance(materials.back())));
+        return instances.back();
+    }
+    Texture texture(TextureDesc desc) {
+        desc.renderable = true, desc.name = "film";
+        textures.push_back(engine.own(engine.create(desc)));
+        return textures.back();
+    }
+    RenderTarget target(RenderTargetDesc const& desc) {
+        targets.push_back(engine.own(engine.create(desc)));
+        return targets.back();
+    }
+    Image pixelsOf(RenderTarget target) {
+        auto image = renderer.waitPixels(renderer.readPixels(target));
+        EXPECT_TRUE(image);
+        return image ? std::move(*image) : Image{};
+    }
     void clear() { passes.clear(), view.postProcess = {}; }
 
     Image light() { return renderLinear(engine, renderer, scene, view); }
@@ -69,6 +88,8 @@ struct PassStage {
     Owned<Material> solid = loadMaterial(engine, kSolid), flat = loadMaterial(engine, kFlat);
     std::vector<Owned<Material>> materials;
     std::vector<Owned<MaterialInstance>> instances;
+    std::vector<Owned<Texture>> textures;
+    std::vector<Owned<RenderTarget>> targets;
     Scene scene{ engine };
     Renderer renderer{ engine };
     std::vector<PostProcessPass> passes;

@@ -15,24 +15,6 @@ using testing::HasSubstr;
 
 struct PartsTest : testing::TestWithParam<Backend>, PassStage {
     PartsTest() : PassStage(GetParam()) {}
-
-    Texture texture(TextureDesc desc) {
-        desc.renderable = true, desc.name = "film";
-        textures.push_back(engine.own(engine.create(desc)));
-        return textures.back();
-    }
-    Image pixelsOf(RenderTarget target) {
-        auto image = renderer.waitPixels(renderer.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
-    }
-    MaterialInstance instance(std::string const& text) {
-        materials.push_back(test::loadMaterial(engine, text));
-        instances.push_back(engine.own(engine.createInstance(materials.back())));
-        return instances.back();
-    }
-
-    std::vector<Owned<Texture>> textures;
 };
 INSTANTIATE_TEST_SUITE_P(BothApis, PartsTest, testing::ValuesIn(test::kBothApis),
                          [](auto const& test) { return std::string(toString(test.param)); });
