@@ -4,6 +4,9 @@
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/ShareSteps.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <utility>
@@ -25,13 +28,33 @@ Result<Shares> sharesOf(Engine& engine, Scene const& scene, View const& view, Sh
     return shares;
 }
 
+constexpr size_t kMostLetters = 24; // of a layer of a file: 31 with the channel
+constexpr std::string_view kRounding = "rounding";
+
 /// The channels of OpenEXR files are named without points and spaces.
 std::string layerNameOf(std::string_view term) {
-    constexpr size_t kMostLetters = 24; // of a file: 31 with the channel
     std::string name(term.substr(0, kMostLetters));
     for (char& letter : name)
         if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
     return name;
+}
+
+/// Terms whose names are equal so far end with _2, _3, ..., in their order.
+std::vector<std::string> layerNamesOf(std::span<const ShareTerm> terms) {
+    std::vector<std::string> names;
+    const auto isTaken = [&](std::string_view name) {
+        return name == kRounding || std::ranges::find(names, name) != names.end();
+    };
+    for (ShareTerm const& term : terms) {
+        const std::string whole = layerNameOf(term.name);
+        std::string name = whole;
+        for (size_t nth = 2; isTaken(name); ++nth) {
+            const std::string end = fmt::format("_{}", nth);
+            name = whole.substr(0, kMostLetters - end.size()) + end;
+        }
+        names.push_back(std::move(name));
+    }
+    return names;
 }
 
 Image imageOfFloats(uint2 size) {
@@ -67,9 +90,10 @@ Result<void> saveLayersOf(std::filesystem::path const& path, Shares const& share
         isRounded = isRounded || lack != double4(0);
     }
     std::vector<ExrLayer> layers;
+    const std::vector<std::string> names = layerNamesOf(shares.terms);
     for (size_t term = 0; term < images.size(); ++term)
-        layers.push_back({ layerNameOf(shares.terms[term].name), &images[term], kShareChannels });
-    if (isRounded) layers.push_back({ "rounding", &rounding, kShareChannels });
+        layers.push_back({ names[term], &images[term], kShareChannels });
+    if (isRounded) layers.push_back({ std::string(kRounding), &rounding, kShareChannels });
     return saveExr(path, layers);
 }
 

@@ -235,6 +235,24 @@ TEST(Shares, AreLayersOfAnExrFile) {
     EXPECT_EQ(shares.share(0, {}).x + shares.share(1, {}).x, std::ldexp(1.0, -24));
 }
 
+TEST(Shares, WithNamesThatAreEqualOnceTheyAreShortAreLayersOfTheirOwn) {
+    const std::filesystem::path file = test::folderOfThisTest() / "shares.exr";
+    const std::string longName = "lamps of the assembly hall"; // 24 letters: "lamps of the assembly ha"
+    Shares shares{ .size = { 1, 1 },
+                   .terms = { { .name = longName + " on the left" },
+                              { .name = longName + " on the right" },
+                              { .name = "rounding" },
+                              { .name = "a.b" },
+                              { .name = "a b" } },
+                   .sums = std::vector(5, oneHalfPixel(0x3C00)) };
+    const Result<void> saved = saveExr(file, shares);
+    ASSERT_TRUE(saved) << saved.error().message;
+    const std::string text = textOfFile(file);
+    for (const char* name :
+         { "lamps_of_the_assembly_ha.R", "lamps_of_the_assembly__2.R", "rounding_2.R", "a_b.R", "a_b_2.R" })
+        EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
 TEST(ExplainPixel, TermsAddUpAndTheSurfaceIsNamed) {
     std::vector<std::string> texts;
     for (const Backend backend : test::kBothApis) {
