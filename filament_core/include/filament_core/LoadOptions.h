@@ -35,9 +35,9 @@ struct GltfLoadOptions {
     /// True: mip levels of normal maps raise the roughness by the variation of normals that they average away, so that
     /// highlights keep their width at a distance. Takes time to load, and no memory.
     bool normalMapRoughness = false;
-    /// True: textures that the file holds as BC7 with all of their levels stay compressed, where the device shows the
-    /// bits of the decoded texels (docs/textures.md). This takes a quarter of the memory and less time to load. Mesa's
-    /// CPU drivers decode blocks again whenever a texel is read: frames take longer.
+    /// True: textures that the file holds as BC7 with all of their levels, and lightmaps of BC6H without openness, stay
+    /// compressed, where the device shows the bits of the decoded texels (docs/textures.md). This takes a quarter of
+    /// the memory and less time to load. Mesa's CPU drivers decode blocks whenever a texel is read: frames take longer.
     bool compressedTextures = false;
     /// True: View::section cuts the model open. Its materials take longer to draw, also where nothing cuts them.
     bool sectionPlanes = false;
