@@ -74,28 +74,6 @@ void setTangents(Mesh& mesh) {
     for (MeshVertex& vertex : mesh.vertices) vertex.tangents = tangentsFromNormal(vertex.normal);
 }
 
-/// Of the formats of fc_format.
-size_t texelBytes(Format format) {
-    switch (format) {
-    case Format::R8:
-        return 1;
-    case Format::RG8:
-    case Format::R16F:
-        return 2;
-    case Format::RGBA8:
-    case Format::RGBA8Srgb:
-    case Format::RGB10A2:
-    case Format::R32F:
-        return 4;
-    case Format::RGBA16F:
-        return 8;
-    case Format::RGBA32F:
-        return 16;
-    default:
-        return 0;
-    }
-}
-
 Result<Image> makeImage(uint32_t width, uint32_t height, Format format, std::span<const std::byte> pixels) {
     const size_t texel = texelBytes(format), bytes = size_t(width) * height * texel;
     if (bytes == 0 || pixels.size() != bytes)

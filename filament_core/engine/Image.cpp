@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament_core/Image.h>
+#include <filament_core/TexelBytes.h>
 
+#include "backend/api/Format.h"
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
 #include "filament_core/assets/files/FileBytes.h"
@@ -26,6 +28,11 @@ Result<Image> decodeAsOptionsSay(std::span<const std::byte> file, std::string_vi
 }
 
 } // namespace
+
+uint32_t texelBytes(Format format) {
+    backend::FormatInfo const& info = backend::formatInfo(format);
+    return info.blockSize == 1 ? info.bytesPerBlock : 0;
+}
 
 Result<Image> loadImage(std::span<const std::byte> file, std::string_view name, ImageLoadOptions const& options) {
     return orOutOfMemory("image", name, [&] { return decodeAsOptionsSay(file, name, options); });

@@ -8,6 +8,7 @@
 #include "shaders/interface/ShaderInterface.h"
 
 #include <filament_core/Image.h>
+#include <filament_core/TexelBytes.h>
 
 #include <algorithm>
 
@@ -20,25 +21,16 @@ namespace {
 constexpr uint32_t kMaxPixels = 16384; // of a side
 static_assert(assets::kLightImageHeaderWords == shader::kImageHeaderWords);
 
-size_t bytesOfPixel(Format format) {
-    switch (format) {
-    case Format::RGBA8:
-    case Format::RGBA8Srgb:
-        return 4;
-    case Format::RGBA16F:
-        return 8;
-    case Format::RGBA32F:
-        return 16;
-    default:
-        return 0;
-    }
+bool isLightFormat(Format format) {
+    return format == Format::RGBA8 || format == Format::RGBA8Srgb || format == Format::RGBA16F ||
+           format == Format::RGBA32F;
 }
 
 void checkDesc(LightImageDesc const& desc) {
     FILAMENT_ASSERT(desc.width >= 1 && desc.height >= 1 && desc.width <= kMaxPixels && desc.height <= kMaxPixels,
                     "the sides of a light image are 1 to 16384 pixels");
-    const size_t bytes = bytesOfPixel(desc.format);
-    FILAMENT_ASSERT(bytes > 0, "a light image is RGBA8, RGBA8Srgb, RGBA16F or RGBA32F");
+    const size_t bytes = texelBytes(desc.format);
+    FILAMENT_ASSERT(isLightFormat(desc.format), "a light image is RGBA8, RGBA8Srgb, RGBA16F or RGBA32F");
     FILAMENT_ASSERT(desc.pixels.size() >= bytes * desc.width * desc.height, "`pixels` holds all of the light image");
 }
 

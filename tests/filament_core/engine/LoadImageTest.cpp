@@ -8,6 +8,7 @@
 #include <filament_core/BuiltInMaterials.h>
 #include <filament_core/Color.h>
 #include <filament_core/Image.h>
+#include <filament_core/TexelBytes.h>
 
 #include <gmock/gmock.h>
 
@@ -167,6 +168,15 @@ TEST(TextureOf, AnImageIsDrawnWithItsMipsAlikeOnBothApis) {
                 EXPECT_NEAR(glm::length(test::halfPixel(seen, x, y) - expected), 0, 0.002f) << static_cast<int>(format);
         }
     }
+}
+
+TEST(TexelBytes, AreThoseOfOneTexelThatIsNotInABlock) {
+    const std::pair<Format, uint32_t> sizes[] = {
+        { Format::None, 0 },    { Format::R8, 1 },        { Format::RG8, 2 },     { Format::R16F, 2 },
+        { Format::RGBA8, 4 },   { Format::RGBA8Srgb, 4 }, { Format::RGB10A2, 4 }, { Format::R32F, 4 },
+        { Format::RGBA16F, 8 }, { Format::RGBA32F, 16 },  { Format::BC7, 0 }
+    };
+    for (auto const& [format, bytes] : sizes) EXPECT_EQ(texelBytes(format), bytes) << static_cast<int>(format);
 }
 
 } // namespace
