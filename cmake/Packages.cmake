@@ -61,9 +61,10 @@ filament_package(tools filament-core-tools graphics SHLIBDEPS RECOMMENDS "${driv
     TEXT "${about}
 .
 Compiles materials (matc, matinfo), bakes environments (cmgen) and light (filament-bake), draws models
-(filament-render), shows them in a window (filament-view), draws saved frames
-again (filament-replay), traces the true picture of models
-(filament-reference), and compares pictures (imgdiff).")
+(filament-render), shows them in a window (filament-view), draws for other
+programs over HTTP (filament-server), draws saved frames again
+(filament-replay), traces the true picture of models (filament-reference), and
+compares pictures (imgdiff).")
 if(FILAMENT_PYTHON)
     math(EXPR next_minor "${Python_VERSION_MINOR} + 1") # the extension is of one version of Python
     filament_package(python python3-filament-core python SHLIBDEPS RECOMMENDS "${drivers}" SUGGESTS python3-matplotlib
