@@ -25,10 +25,25 @@ py::tuple build(SceneFile const& self, EngineObject const& engine, std::optional
     auto view = std::make_shared<ViewObject>();
     view->view = built->view;
     view->view.debugDraw = nullptr; // ends here
+    view->view.postProcess = {};    // the same
     if (built->dirt.get()) view->dirt = std::make_shared<TextureObject>(engine.owner, std::move(built->dirt));
     view->view.effects.bloom.dirt = {};
     // the scene keeps what it uses of models and environments
     return py::make_tuple(std::make_shared<SceneObject>(engine.owner, std::move(built->scene)), view);
+}
+
+/// All frames with passes and overlays, as render() of a Renderer returns one.
+py::array render(SceneFile const& self, EngineObject const& engine,
+                 std::optional<std::filesystem::path> const& assets) {
+    const Owner::Call call(*engine.owner);
+    SceneBuildOptions options;
+    if (assets) options.assets = *assets;
+    Result<Image> image = released([&]() -> Result<Image> {
+        Result<BuiltScene> built = buildScene(call.engine(), self, options);
+        if (!built) return built.error();
+        return renderFrames(call.engine(), *built);
+    });
+    return arrayOf(valueOf(std::move(image)));
 }
 
 } // namespace
@@ -80,7 +95,11 @@ void bindSceneFiles(py::module_& module) {
                     py::arg("name"), "The scene with one of them.")
             .def("build", &build, py::arg("engine"), py::kw_only(), py::arg("assets") = py::none(),
                  "Loads what the file names: a Scene and a View. `assets` is the folder of names that begin with "
-                 "\"asset:\".");
+                 "\"asset:\".")
+            .def("render", &render, py::arg("engine"), py::kw_only(), py::arg("assets") = py::none(),
+                 "Draws the file: its frames with what moves, its passes (compiled packages), its overlays. An array "
+                 "of "
+                 "height x width x 4: bytes, or half floats if the file is linear.");
 }
 
 } // namespace filament_core::python

@@ -2,6 +2,8 @@
 // The scene: meshes, lights and the environment. Models are in ModelCopies.cpp.
 #include "python/SceneParts.h"
 
+#include <filament_core/SaveGltf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -231,6 +233,17 @@ void bindScene(py::module_& module) {
                  "Lights the scene by an Environment, or by the one that a Model brings; None: not any more. "
                  "`illuminance` is what radiance 1 of it stands for, in lux. With a ground_height in metres its "
                  "background lies on the ground, so far below the panorama's camera.")
+            .def(
+                    "save_gltf",
+                    [](SceneObject const& self, std::filesystem::path const& path, std::string const& environment,
+                       std::string const& copyright) {
+                        const Owner::Call call(*self.owner());
+                        const GltfSaveOptions options{ .copyright = copyright, .environment = environment };
+                        return valueOf(released([&] { return saveGltf(*self, path, options); })).warnings;
+                    },
+                    py::arg("path"), py::kw_only(), py::arg("environment") = "", py::arg("copyright") = "",
+                    "Writes the scene as glTF: .glb, or .gltf with a .bin beside it. Returns what the file lacks, a "
+                    "line each. `environment` names what lights the scene, for readers.")
             .def_property_readonly(
                     "bounds",
                     [](SceneObject const& self) {

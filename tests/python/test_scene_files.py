@@ -43,6 +43,20 @@ class SceneFiles(unittest.TestCase):
             self.assertEqual(picture.shape, (48, 64, 4))
             self.assertGreater(int(picture[..., :3].max()), 0)
             self.assertEqual(scene.counts["lights"], 2)
+            self.assertTrue((self.scene.render(engine) == picture).all())
+
+    def test_a_scene_is_saved_as_gltf(self):
+        self.scene.set("model", str(WINDMILL))
+        self.scene.set("rects[0]", {"at": [0, 3, 0], "nits": 10})
+        with tempfile.TemporaryDirectory() as folder, fc.Engine("gles") as engine:
+            scene, _ = self.scene.build(engine)
+            path = pathlib.Path(folder) / "windmill.glb"
+            warnings = scene.save_gltf(path, copyright="A. Author")
+            self.assertEqual(len(warnings), 1, warnings)
+            self.assertIn("area lights", warnings[0])
+            self.assertGreater(len(engine.load_model(path).animations), 0)
+            with self.assertRaisesRegex(fc.InvalidArgumentError, "ending .glb or .gltf"):
+                scene.save_gltf("windmill.obj")
 
 
 if __name__ == "__main__":
