@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// feature_edges [vulkan|gles] [OUT.png] [MODEL.gltf]: lines along silhouettes and creases, and around a selected
-// object, by edges.mat, a pass of one's own over the picture.
+// feature_edges [vulkan|gles] [OUT.png] [MODEL.gltf]: lines along silhouettes and creases, between objects, and around
+// a selected object, by edges.mat, a pass of one's own over the picture.
 #include <filament_core/filament_core.h>
 #include <materials/edges.h>
 
@@ -42,18 +42,24 @@ struct Surfaces {
 struct Line {
     float width = 1;
     float4 ink{ 0, 0, 0, 1 };
-    bool surfaces = true; ///< silhouettes and creases; false: where `labels` end
+    bool surfaces = true;          ///< silhouettes and creases
+    float4 channels{ 1, 0, 0, 0 }; ///< of the labels, where these differ
+    float hidden = 1;              ///< opacity where something is in front
 };
 
-Result<void> set(Engine& engine, MaterialInstance line, Line const& look, Surfaces const& seen, Texture labels) {
+Result<void> set(Engine& engine, MaterialInstance line, Line const& look, Surfaces const& seen, Texture labels,
+                 Texture front) {
     constexpr Sampler kTexels{ .magFilter = Filter::Nearest, .minFilter = Filter::Nearest };
     Result<void> done = engine.set(line, "width", look.width);
     if (done) done = engine.set(line, "ink", look.ink);
     if (done) done = engine.set(line, "surfaces", look.surfaces ? 1.0f : 0.0f);
-    if (done) done = engine.set(line, "labelChannels", look.surfaces ? float4(0) : float4(0, 0, 0, 1));
+    if (done) done = engine.set(line, "labelChannels", look.channels);
+    if (done) done = engine.set(line, "selected", 0.0f);
+    if (done) done = engine.set(line, "hidden", look.hidden);
     if (done) done = engine.set(line, "crease", std::cos(glm::radians(35.0f)));
     if (done) done = engine.set(line, "depth", seen.depth, kTexels);
     if (done) done = engine.set(line, "normals", seen.numbers, kTexels);
+    if (done) done = engine.set(line, "front", front, kTexels);
     if (done) done = engine.set(line, "labels", labels, kTexels);
     return done;
 }
@@ -85,7 +91,7 @@ int main(int argc, char** argv) {
     std::array<Thing, 5> things{ Thing{ makePlane({ .width = 6, .depth = 6 }), { 0, -0.5, 0 } },
                                  Thing{ makeBox(), { -1.2, 0, -0.2 } }, Thing{ makeUvSphere(), { 0, 0, 0.2 } },
                                  Thing{ makeCone(), { 1.2, 0, -0.2 } },
-                                 Thing{ makeTorus({ .radius = 0.35f, .tubeRadius = 0.12f }), { 0.65, -0.2, 0.9 } } };
+                                 Thing{ makeTorus({ .radius = 0.35f, .tubeRadius = 0.12f }), { 0.72, -0.2, -0.45 } } };
     std::optional<Model> model;
     if (argc > 3) {
         Result<Model> loaded = loadGltf(*engine, argv[3]);
@@ -117,17 +123,22 @@ int main(int argc, char** argv) {
                .size = kSize,
                .clearColor = { 0.8f, 0.8f, 0.8f, 1 },
                .samples = 4 };
-    const Surfaces all(*engine, kSize * 2u), selected(*engine, kSize * 2u);
-    Result<void> done = set(*engine, lines, { .width = 1.5f, .ink = { 0.05f, 0.05f, 0.1f, 1 } }, all, selected.numbers);
+    const Surfaces all(*engine, kSize * 2u), ids(*engine, kSize * 2u), selected(*engine, kSize * 2u);
+    Result<void> done =
+            set(*engine, lines, { .width = 1.5f, .ink = { 0.05f, 0.05f, 0.1f, 1 } }, all, ids.numbers, all.depth);
     if (done)
-        done = set(*engine, selection, { .width = 4, .ink = { 1, 0.5f, 0, 1 }, .surfaces = false }, selected,
-                   selected.numbers);
+        done = set(
+                *engine, selection,
+                { .width = 4, .ink = { 1, 0.5f, 0, 1 }, .surfaces = false, .channels = { 0, 0, 0, 1 }, .hidden = 0.4f },
+                selected, selected.numbers, all.depth);
     if (!done) return fail(done.error());
 
     // Without normal maps, in which every dent would be a crease.
     View numbers{ .camera = view.camera, .size = kSize * 2u, .aov = Aov::GeometricNormal };
     Renderer renderer(*engine);
     renderer.render(scene, numbers, all.target);
+    numbers.aov = Aov::ObjectId;
+    renderer.render(scene, numbers, ids.target);
     numbers.visibleLayers = kSelected;
     renderer.render(scene, numbers, selected.target);
     const std::array passes{ PostProcessPass{ lines, PassPlace::AfterToneMapping },

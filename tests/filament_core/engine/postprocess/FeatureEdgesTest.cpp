@@ -30,7 +30,8 @@ std::string edgesText() {
 
 struct LineLook {
     float width = 1.5f;
-    bool labels = false; ///< instead of surfaces: the left and the right half of the picture
+    bool labels = false; ///< instead of surfaces: 0 and 1 in the left and the right half of the picture
+    float selected = 0;
 };
 
 /// The mesh 4 m before the camera; with black lines if `look` is not null.
@@ -56,6 +57,9 @@ Image drawnMesh(Mesh const& mesh, double4x4 const& world, LineLook const* look) 
         EXPECT_TRUE(stage.engine.set(lines, "labels", labels, kUnfilteredSampler));
         EXPECT_TRUE(stage.engine.set(lines, "labelChannels", float4(look->labels ? 1 : 0, 0, 0, 0)));
         EXPECT_TRUE(stage.engine.set(lines, "surfaces", look->labels ? 0.0f : 1.0f));
+        EXPECT_TRUE(stage.engine.set(lines, "front", labels));
+        EXPECT_TRUE(stage.engine.set(lines, "hidden", 1.0f));
+        EXPECT_TRUE(stage.engine.set(lines, "selected", look->selected));
         EXPECT_TRUE(stage.engine.set(lines, "crease", std::cos(0.61f)));
         EXPECT_TRUE(stage.engine.set(lines, "width", look->width));
         EXPECT_TRUE(stage.engine.set(lines, "ink", float4(0, 0, 0, 1)));
@@ -199,9 +203,13 @@ TEST(FeatureEdges, OfLabelsAreWhereTheseDiffer) {
     const Result<Mesh> cube = makeBox();
     ASSERT_TRUE(cube);
     const Ink ink(*cube, double4x4(1), { .width = 3, .labels = true });
+    const Ink selected(*cube, double4x4(1), { .width = 3, .labels = true, .selected = 1 });
+    const Ink none(*cube, double4x4(1), { .width = 3, .labels = true, .selected = 2 });
     for (uint32_t y = 0; y < kSide; ++y) {
         EXPECT_NEAR(profileAt(ink, { 0.5 * kSide, y + 0.5 }, { 1, 0 }).width, 3, 0.35);
         EXPECT_EQ(ink.of(kSide / 4, y), 0);
+        EXPECT_EQ(selected.of(kSide / 2, y), ink.of(kSide / 2, y)) << "one against all others";
+        EXPECT_EQ(none.of(kSide / 2, y), 0);
     }
 }
 
