@@ -42,6 +42,10 @@ struct SaveContext {
         scene::Renderables const& all = scene.data.renderables;
         return all.drawables[all.drawable[all.index.at(renderable)]];
     }
+    bool isDeformed(Renderable renderable) const {
+        scene::Renderables const& all = scene.data.renderables;
+        return scene::deformationAt(all, all.index.at(renderable)) != scene::kNotDeformed;
+    }
     bool isHidden(Renderable renderable) const {
         scene::Renderables const& all = scene.data.renderables;
         return (all.flags[all.index.at(renderable)] & scene::kHidden) != 0;

@@ -7,6 +7,7 @@
 #include <filament_core/Mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace filament_core::engine {
@@ -146,10 +147,14 @@ Result<GltfMergePrimitive> SavedGeometry::read(scene::Geometry const& geometry, 
     IndexBufferState const* const indices = stateOf(mContext.engine.indexBuffers, geometry.indices);
     GltfMergePrimitive primitive;
     if (!vertices || !indices || geometry.indexCount == 0) return primitive;
-    const uint32_t stride = vertices->layout.buffers[0].stride;
-    const Result<std::vector<std::byte> const*> block =
-            bytesOf(geometry.vertices, uint64_t{ vertices->vertexCount } * stride);
-    if (!block) return block.error();
+    std::array<std::byte const*, kMaxVertexStreams> streams{};
+    for (uint8_t i = 0; i < vertices->layout.bufferCount; ++i) {
+        const uint64_t bytes = uint64_t{ vertices->vertexCount } * vertices->layout.buffers[i].stride;
+        const Result<std::vector<std::byte> const*> block =
+                bytesOf(i == 0 ? vertices->handle : vertices->streams[i - 1u], bytes);
+        if (!block) return block.error();
+        streams[i] = (*block)->data();
+    }
     const bool isShort = geometry.indexFormat == IndexFormat::UInt16;
     const Result<std::vector<std::byte> const*> list =
             bytesOf(geometry.indices, uint64_t{ indices->indexCount } * (isShort ? 2u : 4u));
@@ -164,9 +169,10 @@ Result<GltfMergePrimitive> SavedGeometry::read(scene::Geometry const& geometry, 
     };
     for (uint8_t i = 0; i < vertices->layout.attributeCount; ++i) {
         backend::VertexAttribute const& attribute = vertices->layout.attributes[i];
+        std::byte const* const from = streams[attribute.buffer] + attribute.offset;
+        const size_t stride = vertices->layout.buffers[attribute.buffer].stride;
         const auto each = [&](auto const& add) {
-            for (const uint32_t vertex : used)
-                add(vectorAt((*block)->data() + size_t{ vertex } * stride + attribute.offset, attribute.format));
+            for (const uint32_t vertex : used) add(vectorAt(from + size_t{ vertex } * stride, attribute.format));
         };
         switch (static_cast<Attribute>(attribute.location)) {
         case Attribute::Position:

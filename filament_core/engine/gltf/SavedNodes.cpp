@@ -468,7 +468,7 @@ private:
                                     geometry.indexCount, geometry.layout, *material });
             mesh.primitives.push_back({ .material = *material });
             mToRead.push_back({ &drawable, mesh.primitives.size() - 1 });
-            if (drawable.deformation != scene::kNotDeformed)
+            if (mContext.isDeformed(renderable))
                 mContext.warn(
                         "'{}': its skin and morph targets are not written; load it from a glTF file that has them",
                         drawable.material->name);

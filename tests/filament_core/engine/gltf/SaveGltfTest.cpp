@@ -269,6 +269,32 @@ TEST_P(SaveEdits, MeshesOfTheProgramAreReadBack) {
     EXPECT_LT(largest, 0.004f * brightest) << "frames of tangents and directions of lights are rounded";
 }
 
+TEST_P(SaveEdits, VertexStreamsAreReadBackAsOne) {
+    const auto paint = engine->own(engine->createInstance(*createBuiltInMaterial(*engine, "lit"), "paint"));
+    const Mesh box = *makeBox();
+    const auto indices = engine->own(engine->create(box.indexBuffer()));
+    const auto bytesOf = [&](VertexBufferDesc const& desc) {
+        Scene one(*engine);
+        const auto vertices = engine->own(engine->create(desc));
+        one.add(RenderableDesc{ .vertices = vertices, .indices = indices, .material = paint });
+        EXPECT_THAT(save(one, folder / "box.glb").warnings, IsEmpty());
+        std::ifstream in(folder / "box.glb", std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    VertexBufferDesc desc = box.vertexBuffer();
+    const std::string whole = bytesOf(desc);
+    std::vector<std::byte> positions;
+    const auto position = std::ranges::find(desc.attributes, Attribute::Position, &AttributeDesc::attribute);
+    ASSERT_NE(position, desc.attributes.end());
+    for (size_t i = 0; i < desc.vertexCount; ++i) {
+        const auto from = desc.data.subspan(i * desc.stride + position->offset, sizeof(float3));
+        positions.insert(positions.end(), from.begin(), from.end());
+    }
+    desc.attributes.erase(position);
+    desc.streams.push_back({ sizeof(float3), { { Attribute::Position, VertexFormat::Float3 } }, positions });
+    EXPECT_EQ(bytesOf(desc), whole);
+}
+
 TEST_P(SaveEdits, WhatGltfDoesNotHaveIsAWarning) {
     const Node copy = scene->add(*model);
     scene->setLayers(copy, kAllLayers, 2);
