@@ -471,7 +471,13 @@ void appendWord(std::vector<std::byte>& file, uint32_t word) {
 } // namespace
 
 Result<GltfMerged> mergeGltf(GltfMerge const& merge, std::string_view bufferUri) {
-    return Merger(merge, bufferUri).run();
+    // What the scene does not show of a file may be anything.
+    try {
+        return Merger(merge, bufferUri).run();
+    } catch (Json::exception const& exception) {
+        return fail(ErrorCode::Corrupt, "a model's file has an element of another kind than glTF says: {}",
+                    exception.what());
+    }
 }
 
 Result<std::vector<std::byte>> glbOf(GltfMerged const& merged) {

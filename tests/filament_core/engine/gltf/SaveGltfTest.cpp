@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes as glTF files: what is saved and loaded again has the same bits, and what glTF does not have is a warning.
+#include "tests/filament_core/assets/gltf/GltfSpecimens.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
 #include <filament_core/ModelCopy.h>
@@ -8,6 +9,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <fstream>
 
 namespace filament_core {
@@ -100,6 +102,30 @@ TEST_P(SaveModels, OfFilesHaveTheSameBits) {
         EXPECT_EQ(model->animationCount(), loadGltf(*engine, saved)->animationCount());
         scene.remove(root);
     }
+}
+
+TEST_P(SaveModels, ChangesOfInstancesAndMorphTargetsAreWritten) {
+    const auto boxes = loadGltf(*engine, tools::assetDir() / "models/SimpleInstancing/SimpleInstancing.glb");
+    const auto cube = loadGltf(*engine, tools::assetDir() / "models/AnimatedMorphCube/AnimatedMorphCube.glb");
+    ASSERT_TRUE(boxes && cube);
+    Scene scene(*engine);
+    ModelCopy some = *ModelCopy::of(scene, scene.add(*boxes));
+    const std::vector<CopyRenderable> all = some.renderables();
+    ASSERT_EQ(all.size(), 125u);
+    double4x4 moved = scene.parentFromNode(all[7].node);
+    moved[3].y += 3.25;
+    scene.setTransform(all[7].node, moved);
+    scene.remove(all[60].node);
+    scene.setVisible(all[100].renderable, false);
+    ModelCopy morphed = *ModelCopy::of(scene, scene.add(*cube));
+    ASSERT_FALSE(morphed.morphTargets().empty());
+    ASSERT_TRUE(morphed.setMorphWeight(morphed.morphTargets()[0].name, 0.75f));
+    const Camera camera = cameraFor(scene.bounds());
+    const Image before = draw(scene, camera);
+    EXPECT_THAT(save(scene, folder / "changed.glb").warnings, IsEmpty());
+    const std::optional<Image> after = drawFile(folder / "changed.glb", camera);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(test::differingPixels(before, *after), 0u);
 }
 
 TEST_P(SaveModels, DifferentModelsShareAFile) {
@@ -335,6 +361,56 @@ TEST_P(SaveEdits, ErrorsNameTheCureAndLeaveNoFile) {
     fs::remove(folder / "pair.gltf");
     EXPECT_THAT(errorOf(*scene, folder / "late.glb"), HasSubstr("pair.gltf"));
     EXPECT_FALSE(fs::exists(folder / "late.glb"));
+}
+
+/// Whether the file can be loaded; then it is saved, and loaded again.
+bool saveAgain(Engine& engine, std::span<const std::byte> file, fs::path const& saved, bool isWhole) {
+    const GltfMemory memory{ .file = file, .name = "specimen" };
+    const Result<Model> model = loadGltf(engine, memory);
+    if (!model) return false;
+    Scene scene(engine);
+    scene.add(*model);
+    if (model->environment()) scene.setEnvironment(*model->environment());
+    const Result<SavedGltf> done = saveGltf(scene, saved, { .source = [&](auto) { return Result(memory); } });
+    if (!done) {
+        EXPECT_FALSE(isWhole) << done.error().message;
+        return true;
+    }
+    const Result<Model> again = loadGltf(engine, saved);
+    EXPECT_TRUE(again) << again.error().message;
+    if (!again) return true;
+    Scene other(engine);
+    const Node root = other.add(*again);
+    EXPECT_EQ(other.renderableCount(), scene.renderableCount());
+    if (again->environment()) other.setEnvironment(*again->environment());
+    EXPECT_EQ(other.lightCount(), scene.lightCount());
+    EXPECT_EQ(again->animationCount(), model->animationCount());
+    EXPECT_EQ(again->variantNames(), model->variantNames());
+    EXPECT_EQ(again->environment() != nullptr, model->environment() != nullptr);
+    EXPECT_EQ(other.nodeCount(), scene.nodeCount());
+    other.remove(root);
+    return true;
+}
+
+// The seeds are fixed; the number of rounds depends on the time, as in ModelMutation.
+TEST(SaveSpecimens, WhatLoadsIsSavedAndLoadsAgain) {
+    auto engine = Engine::create({ .backend = Backend::Null, .workers = 1 });
+    ASSERT_TRUE(engine) << engine.error().message;
+    const fs::path saved = test::folderOfThisTest() / "specimen.glb";
+    const std::vector<assets::test::Specimen> specimens = assets::test::allSpecimens();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+    for (uint32_t round = 0; round < 1000 && (round == 0 || std::chrono::steady_clock::now() < end); ++round) {
+        for (size_t i = 0; i < specimens.size(); ++i) {
+            assets::test::Specimen specimen = specimens[i];
+            SCOPED_TRACE(testing::Message() << "specimen " << i << ", round " << round);
+            if (round > 0)
+                assets::test::Scratcher(9'000'000 + round * 1000 + static_cast<uint32_t>(i)).scratch(specimen);
+            const bool isLoaded =
+                    saveAgain(*engine, assets::test::glbFrom(specimen.json, specimen.binary), saved, round == 0);
+            EXPECT_TRUE(isLoaded || round > 0);
+        }
+    }
+    (void)engine->takeErrors();
 }
 
 } // namespace
