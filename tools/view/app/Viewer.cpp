@@ -219,6 +219,7 @@ void Viewer::perform(Action action) {
         { Action::Quit, [](Viewer& v) { v.mIsClosed = true; } },
         { Action::Open, [](Viewer& v) { v.mPanels.fileDialog.open(FilePurpose::Open); } },
         { Action::SaveDocument, [](Viewer& v) { v.saveDocumentFile(); } },
+        { Action::SaveGltf, [](Viewer& v) { v.saveScene(); } },
         { Action::CopyDocument, [](Viewer& v) { v.copy(toJson(v.mDocument), "document"); } },
         { Action::CopyCamera, [](Viewer& v) { v.copy(toJson(v.mDocument.view.camera), "camera"); } },
         { Action::Paste, [](Viewer& v) { v.paste(); } },

@@ -134,6 +134,7 @@ private:
     void playOrPause();
     void changeCompareMode();
     void saveDocumentFile();
+    void saveScene();
     void savePicture();
     void saveFrame();
     void recordPath();

@@ -5,6 +5,8 @@
 #include "tools/view/document/DocumentScene.h"
 #include "tools/view/panels/MaterialRows.h"
 
+#include <filament_core/SaveGltf.h>
+
 #include <fmt/format.h>
 
 namespace filament_core::view {
@@ -15,7 +17,7 @@ PictureFormat pictureFormatOf(FrameKind kind) {
 }
 
 /// For other programs; returns what happened, in words.
-std::string saveScene(std::filesystem::path const& file, Document const& document, bool modelHasLight) {
+std::string saveSceneFile(std::filesystem::path const& file, Document const& document, bool modelHasLight) {
     const Result<DocumentScene> scene = sceneOf(document, modelHasLight);
     if (!scene) return "no scene file: " + scene.error().message;
     if (const Result<void> saved = scene->file.save(file); !saved) return saved.error().message;
@@ -103,7 +105,19 @@ void Viewer::saveDocumentFile() {
     mSaved = mDocument;
     Model const* model = mStage ? mStage->model() : nullptr; // null without a device
     std::filesystem::path sceneFile = file;
-    note(saveScene(sceneFile.replace_extension(".scene.json"), mDocument, model && model->environment()));
+    note(saveSceneFile(sceneFile.replace_extension(".scene.json"), mDocument, model && model->environment()));
+}
+
+/// With its camera, and what lights it by name.
+void Viewer::saveScene() {
+    if (!mStage) return note("there is no scene to save");
+    const std::filesystem::path file = freshName(".glb");
+    const GltfSaveOptions options{ .cameras = { { "view", mDocument.view.camera } },
+                                   .environment = mDocument.environment.file.string() };
+    const Result<SavedGltf> saved = saveGltf(mStage->scene(), file, options);
+    if (!saved) return note(saved.error().message);
+    for (std::string const& warning : saved->warnings) note(warning);
+    note(fmt::format("saved {}", file.string()));
 }
 
 void Viewer::keepEdits() {

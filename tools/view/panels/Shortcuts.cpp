@@ -18,6 +18,7 @@ constexpr std::array kShortcuts{
     Shortcut{ Action::Quit, Key::Q, Control, "window", "end" },
     Shortcut{ Action::Open, Key::O, Control, "files", "open a model, a material, an environment or a document" },
     Shortcut{ Action::SaveDocument, Key::S, Control, "files", "save everything that is set" },
+    Shortcut{ Action::SaveGltf, Key::S, ControlShift, "files", "save the scene as glTF, for other programs" },
     Shortcut{ Action::CopyDocument, Key::C, Control, "files", "copy everything that is set, as text" },
     Shortcut{ Action::CopyCamera, Key::C, ControlShift, "files", "copy the camera, as text" },
     Shortcut{ Action::Paste, Key::V, Control, "files", "paste a document, a camera or a camera path" },

@@ -71,6 +71,7 @@ enum class Action : uint8_t {
     ShowShortcuts,
     Open,
     SaveDocument,
+    SaveGltf,
     CopyDocument,
     CopyCamera,
     Paste,
