@@ -12,6 +12,12 @@ uint2 FrameTarget::size() const {
 void FrameTarget::keepContents(Engine::Impl& engine) const {
     color.hasContents = true;
     if (state) state->hasContents = true;
+    if (state && isPart()) {
+        engine.renderTargets.forEachHeld([&](RenderTarget, RenderTargetState& other) { // several may draw to one part
+            if (other.color == state->color && other.level == level() && other.layer == layer())
+                other.hasContents = true;
+        });
+    }
     if (depth && (!isAlone || meshes)) depth->hasContents = true;
     if (!isAlone) return;
     for (const Texture other : state->others) engine.textures.held(other).hasContents = true;

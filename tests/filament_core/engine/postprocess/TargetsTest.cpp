@@ -165,6 +165,18 @@ TEST_P(PartsTest, PassesWithoutAViewFollowEachOtherAndBlend) {
     EXPECT_THAT(error(), HasSubstr("has no texture for 'color'; give it one by Engine::set(): a pass without a view"));
 }
 
+// What a layer holds is the layer's, whichever of its targets has drawn it.
+TEST_P(PartsTest, TargetsOfOneLayerDrawOverEachOther) {
+    const Texture film = texture(
+            { .kind = TextureKind::Texture2DArray, .format = Format::RGBA16F, .width = 8, .height = 8, .layers = 2 });
+    const RenderTarget first = target({ .color = film, .layer = 1 }), second = target({ .color = film, .layer = 1 });
+    const MaterialInstance added =
+            instance("material { name : added, domain : postprocess, blending : add }\n"
+                     "fragment { void postProcess(inout PostProcessInputs inputs) { inputs.color = vec4(0.25); } }");
+    for (const RenderTarget part : { first, second, first }) renderer.render(added, part);
+    EXPECT_EQ(test::halfPixel(pixelsOf(second), 4, 4), float4(0.75f));
+}
+
 // A table of colours, as a 3D texture: red and blue change places.
 TEST_P(PartsTest, ATableOfColoursIsA3DTexture) {
     std::vector<uint8_t> texels;
