@@ -3,6 +3,7 @@
 
 #include "shaders/interface/ShaderInterface.h"
 
+#include <bit>
 #include <cstddef>
 #include <string>
 
@@ -108,6 +109,24 @@ public:
     }
 };
 
+class OtherColorsEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (std::popcount(command.desc.pass.subpasses[command.desc.subpass].colorMask) < 2) return;
+        for (BlendState& blend : std::span(command.desc.blend).subspan(1)) blend.writeMask = 0;
+    }
+};
+
+class EqualDepthEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.depthStencil.depthCompare == CompareOp::Equal)
+            command.desc.depthStencil.depthCompare = CompareOp::Always;
+    }
+};
+
 /// As if culling had left out one object too many.
 class FirstInstanceEdit final : public StreamEdit {
 public:
@@ -156,6 +175,8 @@ constexpr Mutation kRasterMutations[] = {
     { "resolveSamples", "two of four samples become the pixel where displays weigh them", make<ResolveSamplesEdit> },
     { "coverageOff", "alpha does not reach the coverage", make<CoverageOffEdit> },
     { "stencilOff", "stencil test off", make<StencilOffEdit> },
+    { "otherColors", "passes leave all colours of their target but the first as they are", make<OtherColorsEdit> },
+    { "equalDepth", "what is drawn where depths are known is drawn everywhere", make<EqualDepthEdit> },
     { "debugThrough", "surfaces do not hide debug drawing", make<DebugThroughEdit> },
     { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },
 };

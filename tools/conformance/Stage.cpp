@@ -129,6 +129,7 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
         mRenderer.render(mShown->scene, mView, mTarget);
     }
     setBack(0);
+    mPasses.drawTextures(mRenderer, mShown->scene, mView);
     if (request && mCapture) {
         mEngine.waitIdle(); // earlier frames must not be affected by the request
         mCapture->arm(*request);
