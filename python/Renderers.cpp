@@ -7,7 +7,7 @@
 #include <filament_core/RenderAovs.h>
 
 #include <algorithm>
-
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -111,16 +111,6 @@ py::array render(DrawingObject const& self, SceneObject const& scene, ViewObject
     return arrayOf(pixels);
 }
 
-std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
-    std::vector<Aov> aovs;
-    for (std::string const& name : names) {
-        const std::optional<Aov> aov = enumFromName<Aov>(name);
-        if (!aov || aov == Aov::None) raiseInvalid("names: '{}' is not {}", name, listed(enumNames<Aov>().subspan(1)));
-        aovs.push_back(*aov);
-    }
-    return aovs;
-}
-
 /// Of light or of surfaces, in an image that the device can draw. `passes`: those of the view, which refers to them.
 View plainViewOf(ViewObject const& view, Owner const& owner, std::vector<PostProcessPass>& passes) {
     View settings = viewOf(view, owner, passes);
@@ -130,6 +120,68 @@ View plainViewOf(ViewObject const& view, Owner const& owner, std::vector<PostPro
         raiseInvalid("size: {} x {} pixels, but the device draws at most {} a side", settings.size.x, settings.size.y,
                      most);
     return settings;
+}
+
+/// Colours of a mesh pass, textures for all of which there is memory.
+struct MeshColors {
+    std::vector<Owned<Texture>> textures;
+    std::vector<Owned<RenderTarget>> single; ///< to read each
+    Owned<RenderTarget> all;
+};
+
+MeshColors makeMeshColors(Owner& owner, Engine& engine, uint2 size, size_t count) {
+    MeshColors colors;
+    std::vector<Texture> others;
+    for (size_t i = 0; i < count; ++i) {
+        colors.textures.push_back(engine.own(engine.create(TextureDesc{
+                .format = Format::RGBA32F, .width = size.x, .height = size.y, .renderable = true, .name = "meshes" })));
+        checkFrame(owner);
+        if (!colors.textures.back().get()) raise({ ErrorCode::OutOfMemory, "there is no memory for the colours" });
+        colors.single.push_back(engine.own(engine.create(RenderTargetDesc{ .color = colors.textures.back() })));
+        if (i > 0) others.push_back(colors.textures.back());
+    }
+    colors.all =
+            engine.own(engine.create(RenderTargetDesc{ .color = colors.textures[0], .others = std::move(others) }));
+    return colors;
+}
+
+py::list renderMeshes(DrawingObject const& self, SceneObject const& scene, ViewObject const& view,
+                      InstanceObject const& material, int64_t outputs, bool keepsHoles,
+                      std::array<float, 4> const& clear) {
+    if (outputs < 1 || outputs > 4) raiseInvalid("outputs: {} is not from 1 to 4", outputs);
+    Owner& owner = *self.owner();
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    requireSame(owner, material, "material");
+    std::vector<PostProcessPass> passes;
+    const View settings = plainViewOf(view, owner, passes);
+    Drawing& drawing = *self;
+    const DrawingMark mark(drawing);
+    const Scene& content = *scene;
+    const MeshColors colors = makeMeshColors(owner, call.engine(), settings.size, static_cast<size_t>(outputs));
+    MeshPass pass{ .material = material->instance, .keepsHoles = keepsHoles };
+    pass.clearColors.fill({ clear[0], clear[1], clear[2], clear[3] });
+    released([&] { drawing.renderer.render(content, pass, colors.all, settings); });
+    checkFrame(owner);
+    py::list arrays;
+    for (Owned<RenderTarget> const& single : colors.single) {
+        const PixelTicket ticket = drawing.renderer.readPixels(single);
+        if (!ticket) raise({ ErrorCode::OutOfMemory, "there is no memory for the pixels" });
+        Result<Image> image = released([&] { return drawing.renderer.waitPixels(ticket); });
+        checkFrame(owner);
+        arrays.append(arrayOf(valueOf(std::move(image))));
+    }
+    return arrays;
+}
+
+std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
+    std::vector<Aov> aovs;
+    for (std::string const& name : names) {
+        const std::optional<Aov> aov = enumFromName<Aov>(name);
+        if (!aov || aov == Aov::None) raiseInvalid("names: '{}' is not {}", name, listed(enumNames<Aov>().subspan(1)));
+        aovs.push_back(*aov);
+    }
+    return aovs;
 }
 
 py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
@@ -304,6 +356,12 @@ void bindRenderer(py::module_& module) {
                  "Draws so many frames of the view and returns the last: an array (height, width, 4), row 0 on top. "
                  "output='display': uint8 codes, tone mapped; 'light': float32, linear Rec. 709 times the exposure. "
                  "Other threads of Python run meanwhile.")
+            .def("render_meshes", &renderMeshes, py::arg("scene").none(false), py::arg("view").none(false),
+                 py::arg("material").none(false), py::kw_only(), py::arg("outputs") = 1, py::arg("keep_holes") = false,
+                 py::arg("clear") = std::array<float, 4>{},
+                 "Draws the objects that the view shows with one unlit material, and returns its outputs: float32 "
+                 "arrays (height, width, 4), with `clear` where no object is. keep_holes: objects have the holes of "
+                 "their own materials. docs/own-passes.md has examples. Other threads of Python run meanwhile.")
             .def("decisions", &decisionsOf,
                  "What the last frame needed, what it did not, and why: effects first, then passes.")
             .def(

@@ -152,6 +152,42 @@ class Passes(unittest.TestCase):
         self.assertIn("domain : postprocess", str(caught.exception))
 
 
+MESHES = """
+material {
+    name : Pair,
+    shadingModel : unlit,
+    culling : none,
+    outputs : [ { name : mask }, { name : place } ]
+}
+fragment {
+    void material(inout MaterialInputs material) {
+        prepareMaterial(material);
+        material.mask = float4(0.5, 2.0, 0.0, 1.0);
+        material.place = float4(getUserWorldPosition(), 1.0);
+    }
+}
+"""
+
+
+class MeshPasses(unittest.TestCase):
+    def test_give_their_outputs_as_arrays(self):
+        engine = fc.Engine("gles")
+        self.addCleanup(engine.close)
+        scene, renderer, view = fc.Scene(engine), fc.Renderer(engine), flat_view(4, 4)
+        scene.add_mesh(quad(engine), engine.built_in_material("unlit").instance())
+        pair = engine.load_material(fc.compile_material_text(MESHES)).instance()
+        mask, place = renderer.render_meshes(scene, view, pair, outputs=2, clear=(7, 7, 7, 7))
+        self.assertEqual(mask.dtype, np.float32)
+        self.assertEqual(mask[1, 1].tolist(), [0.5, 2, 0, 1])
+        self.assertEqual(place[1, 1, 3], 1)
+        empty, _ = renderer.render_meshes(fc.Scene(engine), view, pair, outputs=2, clear=(7, 7, 7, 7))
+        self.assertTrue((empty == 7).all())
+        with self.assertRaises(fc.Error) as caught:
+            renderer.render_meshes(scene, view, pair)
+        self.assertIn("writes 2 colours, and is drawn to 1", str(caught.exception))
+        self.assertRaises(fc.InvalidArgumentError, renderer.render_meshes, scene, view, pair, outputs=5)
+
+
 class Models(unittest.TestCase):
     def setUp(self):
         self.engine = fc.Engine("gles")
