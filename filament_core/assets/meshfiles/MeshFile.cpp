@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/meshfiles/MeshFile.h"
 
-#include "base/OutOfMemory.h"
-#include "filament_core/assets/files/FileBytes.h"
-
-#include <filament_core/Points.h>
-
 #include <algorithm>
 
 namespace filament_core::assets {
@@ -36,22 +31,3 @@ Result<MeshFile> readMeshFile(std::span<const std::byte> bytes, MeshFormat forma
 }
 
 } // namespace filament_core::assets
-
-namespace filament_core {
-
-Result<PointCloudData> loadPointCloud(std::filesystem::path const& path) {
-    return orOutOfMemory("loading", path.native(), [&]() -> Result<PointCloudData> {
-        const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
-        if (!bytes) return bytes.error();
-        const Result<assets::MeshFile> file = assets::readPly(*bytes);
-        if (!file) return fail(file.error().code, "{}: {}", path.filename().string(), file.error().message);
-        PointCloudData cloud;
-        for (assets::MeshFilePart const& part : file->parts) {
-            for (float3 const& position : part.positions) cloud.positions.push_back(part.origin + double3(position));
-            cloud.colors.insert(cloud.colors.end(), part.colors.begin(), part.colors.end());
-        }
-        return cloud;
-    });
-}
-
-} // namespace filament_core

@@ -66,8 +66,9 @@ struct PointCloudData {
     std::vector<float4> colors{}; ///< linear; empty: the file has none
 };
 
-/// The vertices of a .ply with or without faces, in the file's own units and axes; coordinates of the type double keep
-/// their digits. Colours of 8 and 16 bits are sRGB, others are linear.
+/// Of a .ply the vertices, with or without faces, in the file's own units and axes; coordinates of the type double keep
+/// their digits, colours of 8 and 16 bits are sRGB, others are linear. Of a .glb or .gltf the primitives of points,
+/// where the nodes put them at rest, with the colours of vertices times those of materials.
 /// Fails: Unreadable, Corrupt, Unsupported, OutOfMemory; the file and the reason in one line.
 Result<PointCloudData> loadPointCloud(std::filesystem::path const& path);
 

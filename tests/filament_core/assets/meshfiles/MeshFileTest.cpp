@@ -5,6 +5,8 @@
 #include "tests/fuzz/MeshFileFuzzBody.h"
 #include "toolkit/paths/Paths.h"
 
+#include <filament_core/Points.h>
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -301,6 +303,29 @@ TEST(MeshFile, PassesThroughTheLoaderOfGltfFiles) {
     EXPECT_EQ(cloud->meshes.at(0).primitives.at(0).topology, backend::PrimitiveType::Points);
     EXPECT_EQ(loadGltf(folder / "broken.obj", jobs).error().message,
               "broken.obj: line 1: a position needs three numbers");
+}
+
+TEST(PointCloudFile, HasThePointsOfAGltfFileWhereItsNodesAre) {
+    const std::filesystem::path folder = tools::buildDir() / "mesh-files";
+    std::filesystem::create_directories(folder);
+    const float numbers[] = { 0, 0, 0, 1, 0, 0, 0.25f, 0.5f, 1, 1, 0, 0 }; // two positions, two colours
+    std::ofstream(folder / "points.bin", std::ios::binary)
+            .write(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    std::ofstream(folder / "points.gltf")
+            << R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],
+        "nodes": [ { "mesh": 0, "translation": [ 10, 20, 30 ], "scale": [ 2, 2, 2 ] } ],
+        "materials": [ { "pbrMetallicRoughness": { "baseColorFactor": [ 0.5, 1, 1, 1 ] } } ],
+        "meshes": [ { "primitives": [ { "mode": 0, "material": 0, "attributes": { "POSITION": 0, "COLOR_0": 1 } } ] } ],
+        "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3", "min": [ 0, 0, 0 ], "max": [ 1, 0, 0 ] },
+                       { "bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC3" } ],
+        "bufferViews": [ { "buffer": 0, "byteOffset": 0, "byteLength": 24 }, { "buffer": 0, "byteOffset": 24, "byteLength": 24 } ],
+        "buffers": [ { "uri": "points.bin", "byteLength": 48 } ] })";
+    const Result<PointCloudData> cloud = loadPointCloud(folder / "points.gltf");
+    ASSERT_TRUE(cloud.ok()) << cloud.error().message;
+    EXPECT_EQ(cloud->positions, (std::vector<double3>{ { 10, 20, 30 }, { 12, 20, 30 } }));
+    EXPECT_EQ(cloud->colors, (std::vector<float4>{ { 0.125f, 0.5f, 1, 1 }, { 0.5f, 0, 0, 1 } }));
+    std::ofstream(folder / "quad.obj") << kQuad;
+    EXPECT_EQ(loadPointCloud(folder / "quad.obj").error().message, "quad.obj: there are no points in the file");
 }
 
 // The fuzzer's body on edits of small files.
