@@ -26,11 +26,20 @@ Result<std::unique_ptr<InspectedEngine>> InspectedEngine::create(Backend backend
 }
 
 bool InspectedEngine::isWaiting() const {
-    return !mFrame || !mHasDocument || mPicture || mNormals || mPick || mNeedsNormals;
+    return !mFrame || !mHasDocument || mPicture || mNormals || mPick || mNeedsNormals || (mExplains && !mExplained);
+}
+
+std::vector<std::string> InspectedEngine::takeMessages() {
+    std::vector<std::string> messages = mStage->takeMessages();
+    for (std::string& message : std::exchange(mMessages, {})) messages.push_back(std::move(message));
+    return messages;
 }
 
 /// Frames of one engine one after the other: a request to look into a frame is for the next one that the device gets.
-bool InspectedEngine::follow(Document const& document, uint2 pixel) {
+bool InspectedEngine::follow(Document const& document, uint2 pixel, bool explains) {
+    mExplains = explains;
+    if (!explains || mExplained != pixel) mExplained.reset();
+    if (!explains && mFrame) mFrame->explanation.reset();
     mStage->apply(document);
     mStage->poll();
     const bool isLoading = mStage->progress().isLoading;
@@ -48,8 +57,22 @@ bool InspectedEngine::follow(Document const& document, uint2 pixel) {
     } else if (mPicked != pixel) {
         mPicking = pixel;
         mPick = mStage->renderer().pick(mStage->scene(), mStage->view(), pixel, PickAim::Anything);
+    } else if (explains && !mExplained) {
+        return explain(pixel);
     }
     return isNew;
+}
+
+bool InspectedEngine::explain(uint2 pixel) {
+    View view = mStage->view();
+    view.debugView = DebugView::None;
+    Result<PixelExplanation> explained = explainPixel(mStage->engine(), mStage->scene(), view, pixel);
+    mExplained = pixel;
+    if (explained && mFrame)
+        mFrame->explanation = std::move(*explained);
+    else if (!explained)
+        mMessages.push_back(explained.error().message);
+    return true;
 }
 
 void InspectedEngine::startPicture() {
@@ -97,6 +120,7 @@ bool InspectedEngine::takeNormals() {
     mFrame = std::move(*mNext);
     mNext.reset();
     mPicked.reset();
+    mExplained.reset();
     return true;
 }
 
@@ -157,11 +181,11 @@ bool PixelInspector::follow(bool isOn, Document const& document, EngineOptions c
     }
     open(options);
     const uint2 pixel = min(mLocked.value_or(mPointer), max(document.view.size, uint2(1)) - 1u);
-    bool isNew = mShown != pixel || mReport.isLocked != mLocked.has_value();
+    bool isNew = mShown != pixel || mReport.isLocked != mLocked.has_value() || mReport.isExplained != mExplains;
     mShown = pixel;
     for (auto const& engine : mEngines) {
         if (!engine) continue;
-        isNew |= engine->follow(document, pixel);
+        isNew |= engine->follow(document, pixel, mExplains && mLocked);
         for (std::string& message : engine->takeMessages()) mMessages.push_back(std::move(message));
     }
     if (isNew || mReport.isComplete == isWaiting()) makeReport();
@@ -178,6 +202,7 @@ void PixelInspector::makeReport() {
     }
     mReport.pixel = mShown;
     mReport.isLocked = mLocked.has_value();
+    mReport.isExplained = mExplains;
     mReport.isComplete = frames[0] && frames[1] && !isWaiting();
     mReport.rows = pixelRows(mShown, frames[0], frames[1]);
     mReport.unseen = unseenAttachments(frames[0], frames[1]);

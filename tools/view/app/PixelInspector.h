@@ -3,8 +3,9 @@
 /// own, which read back everything inside of a frame (backend/layers/Captured.h), and picks the pixel.
 ///   Use      every step: follow(). Off, it has no engines and costs nothing; it starts with the first follow() that is
 ///            on.
-///   Draws    two frames on each engine for every document, one after the other; a pick for every pixel.
-///   Waits    never, except for the start of the engines.
+///   Draws    two frames on each engine for every document, one after the other; a pick for every pixel. For a locked
+///            pixel that is explained, what explainPixel() draws.
+///   Waits    never, except for the start of the engines and for an explanation.
 ///   Memory   the images and those attachments of one frame of each API that have the pixels of the image.
 ///   Thread   the main thread.
 ///   Fails    takeMessages(), one line each; an API that has no driver leaves its column empty.
@@ -27,13 +28,14 @@ class InspectedEngine {
 public:
     static Result<std::unique_ptr<InspectedEngine>> create(Backend backend, EngineOptions const& options);
 
-    /// Draws the document, unless it has, and requests the pixel. True: there is something new.
-    bool follow(Document const& document, uint2 pixel);
+    /// Draws the document, unless it has, and requests the pixel; explains it, if that is asked for and not done yet.
+    /// True: there is something new.
+    bool follow(Document const& document, uint2 pixel, bool explains);
     /// Null: not drawn yet.
     InspectedFrame const* frame() const { return mFrame ? &*mFrame : nullptr; }
     bool isWaiting() const; ///< frame() is not that of the document, or its surface not that of the pixel
     std::string const& name() const { return mName; }
-    std::vector<std::string> takeMessages() { return mStage->takeMessages(); }
+    std::vector<std::string> takeMessages();
 
 private:
     InspectedEngine(std::unique_ptr<Stage> stage, std::shared_ptr<backend::FrameCapture> capture);
@@ -42,6 +44,7 @@ private:
     bool takePicture();
     bool takeNormals();
     bool takePick();
+    bool explain(uint2 pixel);
     PixelSurface surfaceOf(PickHit const& hit) const;
 
     std::shared_ptr<backend::FrameCapture> mCapture;
@@ -55,8 +58,11 @@ private:
     PickTicket mPick{};
     uint2 mPicking{ 0 };            ///< the pixel of mPick
     std::optional<uint2> mPicked{}; ///< of the surface
+    std::optional<uint2> mExplained{};
+    bool mExplains = false;
     std::optional<InspectedFrame> mNext, mFrame;
     bool mNeedsNormals = false;
+    std::vector<std::string> mMessages;
 };
 
 class PixelInspector {
@@ -64,6 +70,7 @@ public:
     /// The last pixel of the image under the pointer.
     void point(uint2 pixel) { mPointer = pixel; }
     void toggleLock();
+    void toggleExplanation() { mExplains = !mExplains; } ///< of locked pixels
     std::optional<uint2> locked() const { return mLocked; }
     /// `options` are those of the viewer's own engine. True: the report is another one.
     bool follow(bool isOn, Document const& document, EngineOptions const& options);
@@ -81,6 +88,7 @@ private:
     Backend mOwn = Backend::Null;
     uint2 mPointer{ 0 }, mShown{ 0 };
     std::optional<uint2> mLocked;
+    bool mExplains = false;
     PixelReport mReport{};
     std::vector<std::string> mMessages;
 };

@@ -348,6 +348,7 @@ void Viewer::followRequests() {
     if (std::exchange(requests.cancelsLoading, false)) mStage->cancel();
     if (std::exchange(requests.framesSelection, false)) frame(boundsOfSelection());
     if (std::exchange(requests.togglesPixelLock, false)) mInspector.toggleLock();
+    if (std::exchange(requests.togglesPixelExplanation, false)) mInspector.toggleExplanation();
     if (std::exchange(requests.recordsPath, false)) recordPath();
     if (std::exchange(requests.stopsRecording, false)) mRecorder.cancel();
     followFileDialog();

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 
 namespace filament_core::view {
 namespace {
@@ -99,6 +100,80 @@ void addPictureRows(std::vector<PixelRow>& rows, uint2 pixel, InspectedFrame con
     add("normal", "in the world", [&](InspectedFrame const* frame) { return normalText(frame, pixel); });
 }
 
+// ---- why it has its light
+
+template <class Text>
+std::string explainedText(InspectedFrame const* frame, Text const& text) {
+    return frame && frame->explanation ? text(*frame->explanation) : kNothing;
+}
+
+std::string lightText(double4 const& light) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", light.x, light.y, light.z); }
+
+template <class Number>
+std::string textOf(std::optional<Number> const& value) {
+    if (!value) return kNothing;
+    if constexpr (std::is_same_v<Number, float3>)
+        return fmt::format("{:.6g}, {:.6g}, {:.6g}", value->x, value->y, value->z);
+    else if constexpr (std::is_same_v<Number, float>)
+        return fmt::format("{:.6g}", *value);
+    else
+        return fmt::to_string(*value);
+}
+
+/// The terms of the first frame that has some: of one document both have the same.
+void addTerms(std::vector<PixelRow>& rows, PixelExplanation const& first, InspectedFrame const* own,
+              InspectedFrame const* other) {
+    constexpr const char* kGroup = "light, before the tone mapper";
+    const auto add = [&](std::string const& name, const char* detail, auto const& valueOf) {
+        const auto text = [&](PixelExplanation const& explanation) { return lightText(valueOf(explanation)); };
+        addRow(rows, kGroup, name, detail, explainedText(own, text), explainedText(other, text));
+    };
+    for (size_t i = 0; i < first.terms.size(); ++i) {
+        add(first.terms[i].term.name, toString(first.terms[i].term.kind),
+            [&](PixelExplanation const& of) { return i < of.terms.size() ? of.terms[i].value : double4(0); });
+    }
+    add("sum", "of these terms", [](PixelExplanation const& of) { return of.value; });
+}
+
+void addSurface(std::vector<PixelRow>& rows, InspectedFrame const* own, InspectedFrame const* other) {
+    using Surface = filament_core::PixelSurface;
+    const auto add = [&](const char* name, const char* detail, auto const& valueOf) {
+        const auto text = [&](PixelExplanation const& explanation) {
+            return explanation.surface ? valueOf(*explanation.surface) : std::string(kNothing);
+        };
+        addRow(rows, "surface", name, detail, explainedText(own, text), explainedText(other, text));
+    };
+    add("material", "its instance, and its file", [](Surface const& of) { return of.instance + ", " + of.material; });
+    add("base colour", "linear", [](Surface const& of) { return textOf(of.baseColor); });
+    add("roughness", "perceptual", [](Surface const& of) { return textOf(of.roughness); });
+    add("metallic", "", [](Surface const& of) { return textOf(of.metallic); });
+    add("occlusion", "of the material", [](Surface const& of) { return textOf(of.occlusion); });
+    add("emissive", "pre-exposed", [](Surface const& of) { return textOf(of.emissive); });
+    add("object id", "docs/aovs.md", [](Surface const& of) { return textOf(of.objectId); });
+    add("material id", "docs/aovs.md", [](Surface const& of) { return textOf(of.materialId); });
+    add("instance id", "docs/aovs.md", [](Surface const& of) { return textOf(of.materialInstanceId); });
+    add("triangle id", "docs/aovs.md", [](Surface const& of) { return textOf(of.triangleId); });
+}
+
+void addLobes(std::vector<PixelRow>& rows, PixelExplanation const& first, InspectedFrame const* own,
+              InspectedFrame const* other) {
+    for (size_t i = 0; i < first.lobes.size(); ++i) {
+        const auto text = [&](PixelExplanation const& of) {
+            return i < of.lobes.size() ? lightText(of.lobes[i].value) : std::string(kNothing);
+        };
+        addRow(rows, "the same light, by lobe", first.lobes[i].name, "of the surface's material",
+               explainedText(own, text), explainedText(other, text));
+    }
+}
+
+void addExplanation(std::vector<PixelRow>& rows, InspectedFrame const* own, InspectedFrame const* other) {
+    InspectedFrame const* const first = own && own->explanation ? own : other;
+    if (!first || !first->explanation) return;
+    addTerms(rows, *first->explanation, own, other);
+    addLobes(rows, *first->explanation, own, other);
+    addSurface(rows, own, other);
+}
+
 // ---- attachments
 
 uint2 sizeOf(CapturedAttachment const& attachment) { return { attachment.width, attachment.height }; }
@@ -169,6 +244,7 @@ std::vector<PixelRow> pixelRows(uint2 pixel, InspectedFrame const* own, Inspecte
     std::vector<PixelRow> rows;
     if (!own && !other) return rows;
     addPictureRows(rows, pixel, own, other);
+    addExplanation(rows, own, other);
     addAttachments(rows, pixel, own ? *own : *other, own, other);
     return rows;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PixelReport: what two engines have for one pixel of the same frame: what is displayed, what is seen there, and every
-/// attachment of the frame graph, as texts with a mark where bits differ.
+/// PixelReport: what two engines have for one pixel of the same frame: what is displayed, what is seen there, which
+/// lights and effects its light is made of, and every attachment of the frame graph, as texts with a mark where bits
+/// differ.
 ///   In       frames as FrameCapture reads them, with their images.
 ///   Smaller  attachments are looked at where their texels cover the pixel. Those of other shapes (shadow maps, tables)
 ///            have no pixel of the image; they are counted.
@@ -10,6 +11,7 @@
 
 #include "backend/layers/Captured.h"
 
+#include <filament_core/ExplainPixel.h>
 #include <filament_core/Image.h>
 #include <filament_core/Math.h>
 
@@ -33,6 +35,7 @@ struct PixelRow {
 struct PixelReport {
     uint2 pixel{ 0 };
     bool isLocked = false;
+    bool isExplained = false;             ///< the terms of its light are asked for
     bool isComplete = false;              ///< both engines have drawn the document as it is now
     std::array<std::string, 2> engines{}; ///< of the window, and the other one
     std::vector<PixelRow> rows{};
@@ -52,10 +55,11 @@ struct PixelSurface {
 /// A frame of one engine.
 struct InspectedFrame {
     backend::CapturedFrame inside{};
-    Image picture{};                       ///< as displayed
-    Image normals{};                       ///< DebugView::Normals in a target of light: RGBA16F
-    uint2 size{ 1 };                       ///< of the view
-    std::optional<PixelSurface> surface{}; ///< of the pixel; none: not known yet
+    Image picture{};                               ///< as displayed
+    Image normals{};                               ///< DebugView::Normals in a target of light: RGBA16F
+    uint2 size{ 1 };                               ///< of the view
+    std::optional<PixelSurface> surface{};         ///< of the pixel; none: not known yet
+    std::optional<PixelExplanation> explanation{}; ///< of the pixel, if that is asked for
 };
 
 /// The texel of an attachment that covers a pixel of a view; none: its size is not that of the view or a half, a

@@ -87,7 +87,7 @@ struct PanelRequests {
     bool framesSelection = false;
     bool recordsPath = false, stopsRecording = false; ///< PanelState::path, as PanelState::recording says
     bool inspectsPixel = false; ///< the pixel panel is seen: Panels::pixel is to follow the pointer
-    bool togglesPixelLock = false;
+    bool togglesPixelLock = false, togglesPixelExplanation = false;
     std::optional<size_t> capturesProbe{};        ///< of Document::probes
     bool startsBake = false, cancelsBake = false; ///< as PanelState::bake says
     bool measuresCosts = false, cancelsCosts = false;

@@ -66,6 +66,11 @@ void drawPixelPanel(PanelFrame& frame) {
     ImGui::SameLine();
     bool isLocked = report.isLocked;
     if (ImGui::Checkbox("stays (L)", &isLocked)) frame.requests.togglesPixelLock = true;
+    ImGui::SameLine();
+    bool isExplained = report.isExplained;
+    if (ImGui::Checkbox("explained", &isExplained)) frame.requests.togglesPixelExplanation = true;
+    tooltip("light by light and effect by effect, with the surface and its ids: a frame of both APIs for each term, "
+            "during which the window waits. Of a pixel that stays");
     if (report.rows.empty()) return quietText("both APIs draw the frame ...");
     if (!report.isComplete)
         quietText("drawing ...");

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace filament_core::view {
@@ -90,6 +92,41 @@ TEST_P(ViewerPixelTest, ALockedPixelStaysAndFollowsTheDocument) {
     EXPECT_EQ(report.differing(), 0u);
     headless.press('L');
     EXPECT_EQ(headless.at({ 470, 180 }).pixel, uint2(470, 180));
+}
+
+TEST_P(ViewerPixelTest, ALockedPixelIsExplainedByTermsThatAddUp) {
+    PixelViewer headless(GetParam());
+    if (!headless.viewer) return;
+    headless.at({ 500, 220 });
+    headless.viewer->panels().requests.togglesPixelExplanation = true;
+    headless.viewer->redraw();
+    headless.settle();
+    PixelReport const& report = headless.viewer->inspector().report();
+    const auto ofLight = [&] {
+        return std::ranges::count(report.rows, "light, before the tone mapper", &PixelRow::group);
+    };
+    EXPECT_EQ(ofLight(), 0) << "it may move";
+    headless.press('L');
+    headless.settle();
+    ASSERT_TRUE(report.isComplete);
+    EXPECT_GE(ofLight(), 3);
+    EXPECT_EQ(report.differing(), 0u);
+    EXPECT_NE(row(report, "object id").values[0], "-");
+    EXPECT_NE(row(report, "triangle id").values[1], "-");
+    double sum = 0, whole = 0; // of red, in six digits
+    for (PixelRow const& each : report.rows)
+        if (each.group == "light, before the tone mapper")
+            (each.name == "sum" ? whole : sum) += std::stod(each.values[0]);
+    EXPECT_NEAR(sum, whole, 1e-4 * std::abs(whole) + 1e-5);
+    if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES")) {
+        EXPECT_TRUE(savePng(std::filesystem::path(folder) / fmt::format("explained {}.png", toString(GetParam())),
+                            headless.picture()));
+    }
+    headless.viewer->panels().requests.togglesPixelExplanation = true;
+    headless.viewer->redraw();
+    headless.settle();
+    EXPECT_EQ(ofLight(), 0);
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
 }
 
 TEST_P(ViewerPixelTest, WithoutItsPanelNothingIsInspected) {
