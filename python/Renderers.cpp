@@ -185,7 +185,7 @@ std::vector<Aov> aovsOf(std::vector<std::string> const& names) {
 }
 
 py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, ViewObject const& view,
-                      std::vector<std::string> const& names) {
+                      std::vector<std::string> const& names, std::shared_ptr<DrawingObject> const& kept) {
     Owner& owner = *engine.owner;
     const Owner::Call call(owner);
     requireSame(owner, scene, "scene");
@@ -193,7 +193,13 @@ py::dict renderAovsOf(EngineObject const& engine, SceneObject const& scene, View
     const View settings = plainViewOf(view, owner, passes);
     const std::vector<Aov> aovs = aovsOf(names);
     const Scene& content = *scene;
-    Result<std::vector<Image>> drawn = released([&] { return renderAovs(call.engine(), content, settings, aovs); });
+    if (kept) requireSame(owner, *kept, "renderer");
+    std::optional<DrawingMark> mark;
+    if (kept) mark.emplace(**kept);
+    Result<std::vector<Image>> drawn = released([&] {
+        return kept ? renderAovs((*kept)->renderer, content, settings, aovs)
+                    : renderAovs(call.engine(), content, settings, aovs);
+    });
     checkFrame(owner);
     const std::vector<Image> images = valueOf(std::move(drawn));
     py::dict arrays;
@@ -332,10 +338,11 @@ py::list timingsOf(DrawingObject const& self) {
 void bindRenderer(py::module_& module) {
     module.def(
             "render_aovs", &renderAovsOf, py::arg("engine").none(false), py::arg("scene").none(false),
-            py::arg("view").none(false), py::arg("names"),
+            py::arg("view").none(false), py::arg("names"), py::kw_only(), py::arg("renderer") = nullptr,
             "Numbers of the surfaces that a view shows, by their names in docs/aovs.md: float32 arrays (height, width, "
             "4), row 0 on top, with 1 in the last channel where there is a value, 0.5 where the material has none, "
-            "and 0 where no surface is. Other threads of Python run meanwhile.");
+            "and 0 where no surface is. motion counts from the last frame of `renderer`; without one it is 0. Other "
+            "threads of Python run meanwhile.");
     module.def(
             "render_shares", &renderSharesOf, py::arg("engine").none(false), py::arg("scene").none(false),
             py::arg("view").none(false), py::kw_only(), py::arg("terms") = "lights", py::arg("groups") = LightsByName{},

@@ -60,6 +60,21 @@ class ClosedForms(unittest.TestCase):
         with self.assertRaisesRegex(fc.InvalidArgumentError, "names: 'beauty' is not depth, position"):
             fc.render_aovs(self.engine, self.scene, flat_view(), ["beauty"])
 
+    def test_aovs_have_ids_of_objects_and_their_motion(self):
+        square = quad(self.engine)
+        self.scene.add_mesh(square, unlit(self.engine, (1, 1, 1)), transform=placed(-0.5, 0, scale=0.25))
+        self.scene.add_mesh(square, unlit(self.engine, (0, 1, 1)), transform=placed(0.5, 0, scale=0.25))
+        names = ["objectId", "materialInstanceId", "triangleId", "coverage", "motion"]
+        renderer = fc.Renderer(self.engine)
+        view = flat_view()
+        for _ in range(2):
+            numbers = fc.render_aovs(self.engine, self.scene, view, names, renderer=renderer)
+        self.assertEqual([sorted(set(numbers[name][..., 0].flat)) for name in names],
+                         [[0, 1, 2], [0, 1, 2], [0, 1], [0, 1], [0]])
+        self.assertEqual(numbers["objectId"][32, 16].tolist(), [1, 0, 0, 1])
+        self.assertEqual(numbers["coverage"][..., 0].sum(), 2 * 16 * 16)
+        self.assertEqual(numbers["motion"][32, 48].tolist(), [0, 0, 0, 1])
+
     def test_shares_add_up_to_the_light(self):
         self.scene.add_mesh(self.engine.sphere(), self.engine.built_in_material("lit").instance(), name="ball")
         lamps = [self.scene.add_point_light((x, 0, 2), 2000) for x in (-0.5, 0.5)]
