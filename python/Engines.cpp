@@ -74,9 +74,10 @@ void setKeyword(T& options, std::string_view option, const char* keyword, std::s
 
 std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem::path const& path,
                                        std::string const& positions, std::string const& tangents, bool deformable,
-                                       bool simplified, bool filesFromAnywhere) {
+                                       bool simplified, bool filesFromAnywhere, bool sectionPlanes) {
     GltfLoadOptions options{ .deformable = deformable,
                              .simplified = simplified,
+                             .sectionPlanes = sectionPlanes,
                              .filesFromAnywhere = filesFromAnywhere };
     setKeyword(options, "positions", "positions", positions);
     setKeyword(options, "tangents", "tangents", tangents);
@@ -242,9 +243,9 @@ void bindLoaded(py::module_& module) {
 void bindLoading(EngineClass& engine) {
     engine.def("load_model", &loadModel, py::arg("path"), py::kw_only(), py::arg("positions") = "asAuthored",
                py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("simplified") = false,
-               py::arg("files_from_anywhere") = false,
+               py::arg("files_from_anywhere") = false, py::arg("section_planes") = false,
                "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents, "
-               "model.simplified and model.filesFromAnywhere.")
+               "model.simplified, model.filesFromAnywhere and model.sectionPlanes.")
             .def("load_environment", &loadFile, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
                  py::arg("sun") = "keep", py::arg("lights") = 1,

@@ -114,7 +114,7 @@ TEST(EngineMaterials, OfGltfReflectThePictureIfTheyAreLit) {
     size_t count = 0;
     for (const std::string_view name : engineMaterialNames()) {
         if (!name.starts_with("gltf_")) continue;
-        const bool isLit = !name.starts_with("gltf_unlit");
+        const bool isLit = name.find("_unlit_") == std::string_view::npos;
         EXPECT_EQ(read(name).reflections == Reflections::ScreenSpace, isLit) << name;
         count += isLit;
     }
@@ -213,6 +213,20 @@ TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllMaterialsOfAGltfFamily)
     for (const char* family : { "gltf_lit", "gltf_layered", "gltf_specular_glossiness", "gltf_transmissive_thin",
                                 "gltf_transmissive_solid", "gltf_scattering" })
         expectTheSameInterface(family, { "_masked", "_blended" });
+    // Those with section planes take the settings of those without; a masked one draws opaque materials, and the layered
+    // ones what has no layers.
+    for (const char* suffix : { "_masked", "_blended" }) {
+        for (const char* family :
+             { "layered", "unlit", "specular_glossiness", "transmissive_thin", "transmissive_solid", "scattering" }) {
+            const MaterialPackage plain = read(std::string("gltf_") + family + suffix);
+            const MaterialPackage cut = read(std::string("gltf_section_") + family + suffix);
+            EXPECT_EQ(cut.parameters, plain.parameters) << family;
+            EXPECT_EQ(cut.constants, plain.constants) << family;
+            EXPECT_TRUE(cut.sectionPlanes && !plain.sectionPlanes) << family;
+        }
+    }
+    for (Constant const& constant : read("gltf_lit_opaque").constants)
+        EXPECT_NE(read("gltf_section_layered_masked").findConstant(constant.name), nullptr) << constant.name;
     EXPECT_NE(read("gltf_lit_masked").findParameter("_maskThreshold"), nullptr);
     EXPECT_EQ(read("gltf_lit_blended").blending, Blending::Fade) << "alpha is coverage, of the reflection too";
     EXPECT_FALSE(read("gltf_lit_blended").depthWrite);

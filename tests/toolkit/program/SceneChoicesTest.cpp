@@ -18,14 +18,14 @@ SceneOptions sunny() {
 
 /// What the choices change, as one text.
 std::string stateOf(SceneOptions const& o) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows,
-                       o.sun->angularRadiusDegrees, o.sun->haloSize, o.sun->haloFalloff, o.exactShaders,
-                       static_cast<int>(o.environmentOptions.format),
-                       static_cast<int>(o.environmentOptions.roughnessMapping),
-                       static_cast<int>(o.environmentOptions.sun), o.environmentOptions.lights,
-                       static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
-                       o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels, o.modelOptions.normalMapRoughness,
-                       o.modelOptions.compressedTextures, o.modelOptions.textureBudgetMegabytes);
+    return fmt::format(
+            "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows,
+            o.sun->angularRadiusDegrees, o.sun->haloSize, o.sun->haloFalloff, o.exactShaders,
+            static_cast<int>(o.environmentOptions.format), static_cast<int>(o.environmentOptions.roughnessMapping),
+            static_cast<int>(o.environmentOptions.sun), o.environmentOptions.lights,
+            static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
+            o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels, o.modelOptions.normalMapRoughness,
+            o.modelOptions.compressedTextures, o.modelOptions.textureBudgetMegabytes, o.modelOptions.sectionPlanes);
 }
 
 TEST(SceneChoices, ChangeWhatTheyName) {
@@ -47,6 +47,7 @@ TEST(SceneChoices, ChangeWhatTheyName) {
         { "model.normalMapRoughness", "on" },
         { "model.compressedTextures", "on" },
         { "model.textureBudgetMegabytes", "64" },
+        { "model.sectionPlanes", "on" },
     };
     for (auto const& [name, value] : kChanges) {
         SceneOptions options = sunny();
