@@ -160,12 +160,9 @@ private:
         }
         for (GltfMergeValue const& value : material.values) setValue(json, value);
         for (auto const& [pointer, reference] : material.textures) {
-            Json& info = memberAt(json, pointer);
-            Json changed = textureInfoJson(placed(reference), mRoot);
-            if (info.is_object())
-                info["index"] = changed["index"]; // its coordinates and transform stay
-            else
-                info = std::move(changed);
+            // A material reads the maps of its file alone. Their coordinates and transforms stay.
+            if (json.contains(Json::json_pointer("/" + pointer)))
+                memberAt(json, pointer)["index"] = textureInfoJson(placed(reference), mRoot)["index"];
         }
         mMaterials.push_back(list("materials").size());
         list("materials").push_back(std::move(json));

@@ -42,7 +42,8 @@ struct GltfMergeMaterial {
     uint32_t source = kNone, material = kNone; ///< of a source; kNone: `data`
     MaterialData data{};                       ///< TextureRef::image is an index into GltfMerge::images
     std::vector<GltfMergeValue> values{};
-    std::vector<std::pair<std::string, TextureRef>> textures{}; ///< by the pointers of their infos
+    std::vector<std::pair<std::string, TextureRef>>
+            textures{}; ///< in the place of others, by the pointers of their infos
 };
 
 struct GltfMergePrimitive {

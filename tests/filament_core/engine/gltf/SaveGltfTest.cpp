@@ -128,6 +128,30 @@ TEST_P(SaveModels, ChangesOfInstancesAndMorphTargetsAreWritten) {
     EXPECT_EQ(test::differingPixels(before, *after), 0u);
 }
 
+TEST_P(SaveModels, AnotherImageOfAMapIsWritten) {
+    const auto model = loadGltf(*engine, tools::assetDir() / "models/TextureCoordinateTest/TextureCoordinateTest.glb");
+    ASSERT_TRUE(model) << model.error().message;
+    Scene scene(*engine);
+    ModelCopy copy = *ModelCopy::of(scene, scene.add(*model));
+    const std::array<uint8_t, 16> texels{ 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 0, 255 };
+    const auto texture = engine->own(engine->create(TextureDesc{
+            .format = Format::RGBA8Srgb, .width = 2, .height = 2, .pixels = std::as_bytes(std::span(texels)) }));
+    size_t changed = 0;
+    for (CopyMaterial const& material : copy.materials())
+        changed += copy.set(material.name, "baseColorMap", texture,
+                            { .magFilter = Filter::Nearest, .mipFilter = MipFilter::None })
+                           .ok();
+    EXPECT_GT(changed, 0u);
+    scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 60'000 } }); // no rotation rounds
+    const Camera camera = cameraFor(scene.bounds());
+    const Image before = draw(scene, camera);
+    EXPECT_THAT(save(scene, folder / "image.glb").warnings, IsEmpty());
+    const std::optional<Image> after = drawFile(folder / "image.glb", camera);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(test::differingPixels(before, *after), 0u);
+    EXPECT_GT(test::extremesOf(before).most, 0.1f);
+}
+
 TEST_P(SaveModels, DifferentModelsShareAFile) {
     Scene scene(*engine);
     std::vector<Model> models;
@@ -370,6 +394,9 @@ bool saveAgain(Engine& engine, std::span<const std::byte> file, fs::path const& 
     if (!model) return false;
     Scene scene(engine);
     scene.add(*model);
+    double4x4 beside(1.0);
+    beside[3].x = 2;
+    if (isWhole) scene.add(*model, beside);
     if (model->environment()) scene.setEnvironment(*model->environment());
     const Result<SavedGltf> done = saveGltf(scene, saved, { .source = [&](auto) { return Result(memory); } });
     if (!done) {
