@@ -32,8 +32,14 @@ void JsonReader::addList(const char* key, Json elements) {
 
 void JsonReader::addObject(const char* key, std::function<void(JsonReader&)> const& fill) { add(key, describe(fill)); }
 
-void JsonReader::addObjects(const char* key, std::function<void(JsonReader&)> const& fill) {
-    addList(key, describe(fill));
+void JsonReader::addObjects(const char* key, std::function<void(JsonReader&)> const& fill, bool orTexts) {
+    Json element = describe(fill);
+    if (orTexts) element["type"] = { "object", "string" };
+    addList(key, std::move(element));
+}
+
+std::optional<std::string> JsonReader::textOf(Json const& value) {
+    return value.is_string() ? std::optional(value.get<std::string>()) : std::nullopt;
 }
 
 bool JsonReader::has(const char* key) { return mSchema || find(key) != nullptr; }

@@ -86,6 +86,18 @@ public:
         for (size_t i = 0; i < elements.size(); ++i)
             nested(*elements[i], mWhere + path(key) + "[" + std::to_string(i) + "]", fill);
     }
+    /// A list of objects and of texts, which `take(std::string)` reads.
+    template <class Fill, class Take>
+    void objectsOrTexts(const char* key, Fill const& fill, Take const& take) {
+        if (mSchema) return addObjects(key, fill, true);
+        const std::vector<Json const*> elements = list(key);
+        for (size_t i = 0; i < elements.size(); ++i) {
+            if (const std::optional<std::string> text = textOf(*elements[i]))
+                take(*text);
+            else
+                nested(*elements[i], mWhere + path(key) + "[" + std::to_string(i) + "]", fill);
+        }
+    }
     /// The value of a field that the caller reads, and its schema, JSON text.
     Json const* raw(const char* key, std::string_view schema = "{}");
 
@@ -100,7 +112,8 @@ private:
     void add(const char* key, Json schema);
     void addList(const char* key, Json elements);
     void addObject(const char* key, std::function<void(JsonReader&)> const& fill);
-    void addObjects(const char* key, std::function<void(JsonReader&)> const& fill);
+    void addObjects(const char* key, std::function<void(JsonReader&)> const& fill, bool orTexts = false);
+    static std::optional<std::string> textOf(Json const& value);
 
     template <class Fill>
     void nested(Json const& json, std::string where, Fill const& fill) {

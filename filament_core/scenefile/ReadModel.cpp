@@ -67,7 +67,9 @@ void readModels(JsonReader& reader, std::vector<SceneFileModel>& models) {
     SceneFileModel first;
     readModel(reader, first);
     if (!first.file.empty() || !first.object.empty()) models.push_back(std::move(first));
-    reader.objects("models", [&](JsonReader& r) { readModel(r, models.emplace_back()); });
+    reader.objectsOrTexts(
+            "models", [&](JsonReader& r) { readModel(r, models.emplace_back()); },
+            [&](std::string const& file) { models.emplace_back().file = file; });
 }
 
 } // namespace filament_core::scenefile

@@ -297,5 +297,17 @@ TEST(SceneFile, ModelsAreAListOfWhatTheOneModelIs) {
               std::string::npos);
 }
 
+TEST(SceneFile, ModelsOfAListMayBePaths) {
+    SceneFile file = parsed(R"({"models": ["a.glb", {"model": "b.glb"}]})");
+    ASSERT_TRUE(file.set("models[2]", "c.glb").ok());
+    ASSERT_TRUE(file.set("models[0]", R"({"model": "d.glb", "variant": "red"})").ok());
+    ASSERT_EQ(file.contents().models.size(), 3u);
+    EXPECT_EQ(file.contents().models[0].variant, "red");
+    EXPECT_EQ(file.contents().models[1].file, "b.glb");
+    EXPECT_EQ(file.contents().models[2].file, "c.glb");
+    EXPECT_EQ(file.contents().models[2].copies.size(), 1u);
+    EXPECT_NE(refusal(R"({"models": [4]})").find("models[0]: expected an object"), std::string::npos);
+}
+
 } // namespace
 } // namespace filament_core
