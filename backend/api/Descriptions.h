@@ -376,6 +376,7 @@ struct SurfaceDesc {
     /// Set: the surface is only asked, and nothing is presented to it. Answered as a read-back: a byte for each
     /// OutputSpace that the window can have; none: it cannot be opened.
     Ticket spaces{};
+    uint64_t gate = 0; ///< a number of WindowGate.h; 0: presenting waits for the window
     std::string_view debugName;
 };
 

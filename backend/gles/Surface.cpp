@@ -120,6 +120,11 @@ Result<void> Surface::open(NativeDisplay const& display, SurfaceDesc const& desc
                                            space == EGL_NONE ? nullptr : attributes.data());
         if (mSurface == EGL_NO_SURFACE) continue; // X11: a configuration whose visual is that of the window
         if (desc.space == OutputSpace::Rec2020Pq) describePeak(desc.peakNits);
+        if (mWaylandWindow && mInterval > 0) {
+            mFrames = FrameCallbacks::create(display.handle, reinterpret_cast<void*>(desc.window),
+                                             findWindowGate(desc.gate));
+        }
+        if (mFrames) mInterval = 0;
         return {};
     }
     return fail(ErrorCode::Internal,
@@ -157,6 +162,7 @@ void Surface::describePeak(float peakNits) const {
 
 Surface::~Surface() {
     Egl const& egl = mContext.egl();
+    mFrames.reset();
     if (mSurface != EGL_NO_SURFACE) {
         // A surface that is current would stay until the context lets go of it.
         mContext.makeCurrent(EGL_NO_SURFACE);
@@ -197,6 +203,7 @@ bool Surface::present(Device& device, Framebuffers& framebuffers, Texture const&
     // Before anything is drawn: the back buffer takes its size with the first call.
     follow(texture);
     if (!mContext.makeCurrent(mSurface)) {
+        if (mFrames) mFrames->allowAnother();
         reportOnce(device, "cannot be drawn to");
         return false;
     }
@@ -204,7 +211,9 @@ bool Surface::present(Device& device, Framebuffers& framebuffers, Texture const&
     // The interval belongs to the surface that is current, so it can be set only now.
     if (!mHasInterval) mHasInterval = egl.SwapInterval(mContext.display(), mInterval) == EGL_TRUE;
     copy(device, framebuffers, texture);
+    if (mFrames) mFrames->request();
     if (egl.SwapBuffers(mContext.display(), mSurface)) return true;
+    if (mFrames) mFrames->allowAnother(); // nothing was committed
     reportOnce(device, "does not take the image");
     return false;
 }

@@ -3,11 +3,13 @@
 ///   Rows    the only place that flips an image: row 0 is the top row of a texture, but the bottom row of a
 ///           window.
 ///   Thread  the driver thread, context current.
+///   Waits   with Fifo as EGL does (X11); on Wayland the app thread waits, for FrameCallbacks.
 ///   Needs   a context on the display of the window (DriverOptions::display).
 ///   Fails   create(): Unsupported or Internal, with the window and the error of EGL. present() returns what it did; a
 ///           window that is gone is reported once.
 #pragma once
 
+#include "backend/api/FrameCallbacks.h"
 #include "backend/gles/Device.h"
 #include "backend/gles/Framebuffers.h"
 
@@ -44,6 +46,7 @@ private:
     void* mWaylandWindow = nullptr; ///< wl_egl_window*, which has the size of what is presented
     EGLint mInterval;               ///< refreshes of the display between two images
     bool mHasInterval = false;
+    std::unique_ptr<FrameCallbacks> mFrames; ///< instead of an interval
     bool mIsReported = false;
     std::string mName;
 };

@@ -169,7 +169,7 @@ FILAMENT_FIELDS(BindGroupDesc, "BindGroupDesc", FILAMENT_FIELD(BindGroupDesc, la
 FILAMENT_FIELDS(SurfaceDesc, "SurfaceDesc", FILAMENT_FIELD(SurfaceDesc, window),
                 FILAMENT_FIELD(SurfaceDesc, presentMode), FILAMENT_FIELD(SurfaceDesc, space),
                 FILAMENT_FIELD(SurfaceDesc, peakNits), FILAMENT_FIELD(SurfaceDesc, spaces),
-                FILAMENT_FIELD(SurfaceDesc, debugName));
+                FILAMENT_FIELD(SurfaceDesc, gate), FILAMENT_FIELD(SurfaceDesc, debugName));
 
 // ---------------------------------------------------------------------------------------------- commands
 

@@ -220,7 +220,7 @@ void Executor::execute(CmdPresent const& command) {
     surface->recordCopy(commands(), texture->image(), texture->extent(0), **target);
     // The semaphores belong to a submission, so this one ends here.
     if (!check(mSubmissions->submit((*target)->acquired, (*target)->drawn), "submit")) return;
-    const VkResult presented = surface->present(**target);
+    const VkResult presented = surface->present(**target, *mSubmissions);
     if (presented == VK_ERROR_DEVICE_LOST) check(presented, "present");
     if (presented < VK_SUCCESS) return;
     ++mStatistics.presents;

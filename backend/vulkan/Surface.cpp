@@ -115,11 +115,19 @@ Result<void> Surface::open(SurfaceDesc const& desc) {
         return fail(ErrorCode::Unsupported, "window '{}': '{}' cannot present to it; choose another device", mName,
                     mDevice.info().deviceName);
     }
+    const std::shared_ptr<WindowGate> gate = findWindowGate(desc.gate);
+    if (system == WindowSystem::Wayland && mMode == PresentMode::Fifo && hasMode(VK_PRESENT_MODE_MAILBOX_KHR)) {
+        mFrames = FrameCallbacks::create(instance.display().handle, reinterpret_cast<void*>(desc.window), gate);
+        if (mFrames) mMode = PresentMode::Mailbox; // in order all the same: the next image comes when it is wanted
+    }
+    mWaiter.emplace(mDevice, mFrames ? nullptr : gate);
     return {};
 }
 
 Surface::~Surface() {
     VolkDeviceTable const& fn = mDevice.fn();
+    mWaiter.reset();
+    mFrames.reset();
     fn.vkDeviceWaitIdle(mDevice.handle());
     dropImages();
     for (Acquisition const& each : mAcquisitions) fn.vkDestroySemaphore(mDevice.handle(), each.semaphore, nullptr);
@@ -161,15 +169,19 @@ void Surface::describePeak() const {
     mDevice.fn().vkSetHdrMetadataEXT(mDevice.handle(), 1, &mSwapchain, &metadata);
 }
 
-VkPresentModeKHR Surface::chooseMode() const {
-    const VkPresentModeKHR wanted = mMode == PresentMode::Mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
-                                    : mMode == PresentMode::Immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
-                                                                      : VK_PRESENT_MODE_FIFO_KHR;
+bool Surface::hasMode(VkPresentModeKHR mode) const {
     const auto modes = enumerate<VkPresentModeKHR>([&](uint32_t* count, VkPresentModeKHR* list) {
         return mDevice.instance().fn().vkGetPhysicalDeviceSurfacePresentModesKHR(mDevice.physical().handle, mSurface,
                                                                                  count, list);
     });
-    return std::ranges::find(modes, wanted) != modes.end() ? wanted : VK_PRESENT_MODE_FIFO_KHR;
+    return std::ranges::find(modes, mode) != modes.end();
+}
+
+VkPresentModeKHR Surface::chooseMode() const {
+    const VkPresentModeKHR wanted = mMode == PresentMode::Mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
+                                    : mMode == PresentMode::Immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
+                                                                      : VK_PRESENT_MODE_FIFO_KHR;
+    return hasMode(wanted) ? wanted : VK_PRESENT_MODE_FIFO_KHR;
 }
 
 Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
@@ -199,12 +211,14 @@ Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
     info.clipped = VK_TRUE;
     info.oldSwapchain = mSwapchain;
 
+    mWaiter->stop();
     fn.vkDeviceWaitIdle(mDevice.handle()); // images of the old one may be on their way to the window
     VkSwapchainKHR made = VK_NULL_HANDLE;
     result = fn.vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made);
     // The old one goes in any case: the call retires it even where it fails.
     dropImages();
     if (mSwapchain != VK_NULL_HANDLE) fn.vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    dropAsked();
     mSwapchain = made;
     if (result == VK_SUCCESS) result = takeImages();
     if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: swapchain of window '{}'", mName));
@@ -258,7 +272,52 @@ Result<VkSemaphore> Surface::freeSemaphore(Submissions& submissions) {
     return made;
 }
 
+void Surface::setSerial(VkSemaphore semaphore, uint64_t serial) {
+    for (Acquisition& each : mAcquisitions) {
+        if (each.semaphore == semaphore) each.serial = serial;
+    }
+}
+
+/// Semaphores that the old swapchain may have signalled for images nobody used.
+void Surface::dropAsked() {
+    std::erase_if(mAcquisitions, [&](Acquisition const& each) {
+        if (each.serial == kAsked) mDevice.fn().vkDestroySemaphore(mDevice.handle(), each.semaphore, nullptr);
+        return each.serial == kAsked;
+    });
+}
+
+/// Nothing will be presented.
+void Surface::allowAnother() {
+    mWaiter->allowAnother();
+    if (mFrames) mFrames->allowAnother();
+}
+
+/// So that the driver thread need not wait for it when it presents.
+void Surface::askForNext(Submissions& submissions) {
+    if (mIsStale) return mWaiter->allowAnother();
+    const Result<VkSemaphore> acquired = freeSemaphore(submissions);
+    if (!acquired) return mWaiter->allowAnother();
+    setSerial(*acquired, kAsked);
+    if (mWaiter->ask(mSwapchain, *acquired)) return;
+    setSerial(*acquired, 0);
+    mWaiter->allowAnother();
+}
+
+ImageWaiter::Image Surface::nextImage(VkSemaphore acquired) const {
+    ImageWaiter::Image image{ .acquired = acquired };
+    const uint64_t timeout = std::chrono::nanoseconds(kAcquireTimeout).count();
+    image.result = mDevice.fn().vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, timeout, acquired, VK_NULL_HANDLE,
+                                                      &image.index);
+    return image;
+}
+
 Result<std::optional<Surface::Target>> Surface::acquire(Format format, VkExtent2D wanted, Submissions& submissions) {
+    const Result<std::optional<Target>> target = tryAcquire(format, wanted, submissions);
+    if (!target || !*target) allowAnother();
+    return target;
+}
+
+Result<std::optional<Surface::Target>> Surface::tryAcquire(Format format, VkExtent2D wanted, Submissions& submissions) {
     const bool isResized = wanted.width != mWanted.width || wanted.height != mWanted.height || format != mFormat;
     mIsStale |= isResized;
     constexpr int kTries = 3; // a window that is being resized may change again at once
@@ -268,21 +327,26 @@ Result<std::optional<Surface::Target>> Surface::acquire(Format format, VkExtent2
             if (!built) return built.error();
             if (!*built) return std::optional<Target>{};
         }
-        const Result<VkSemaphore> acquired = freeSemaphore(submissions);
-        if (!acquired) return acquired.error();
-        Target target{ .extent = mExtent, .acquired = *acquired };
-        const uint64_t timeout = std::chrono::nanoseconds(kAcquireTimeout).count();
-        const VkResult result = mDevice.fn().vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, timeout, *acquired,
-                                                                   VK_NULL_HANDLE, &target.index);
+        ImageWaiter::Image image;
+        if (mWaiter->isAsked()) {
+            const auto taken = mWaiter->take(kAcquireTimeout);
+            if (!taken) return std::optional<Target>{}; // the waiter continues
+            image = *taken;
+            setSerial(image.acquired, submissions.recordingSerial());
+        } else {
+            const Result<VkSemaphore> acquired = freeSemaphore(submissions);
+            if (!acquired) return acquired.error();
+            image = nextImage(*acquired);
+        }
+        Target target{ .extent = mExtent, .index = image.index, .acquired = image.acquired };
+        const VkResult result = image.result;
         if (result == VK_SUBOPTIMAL_KHR) mIsStale = true; // the image is there, and fits the next time
         if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
             target.image = mImages[target.index].image;
             target.drawn = mImages[target.index].drawn;
             return std::optional(target);
         }
-        for (Acquisition& each : mAcquisitions) {
-            if (each.semaphore == *acquired) each.serial = 0; // nobody signals it
-        }
+        setSerial(image.acquired, 0); // nobody signals it
         if (result == VK_TIMEOUT || result == VK_NOT_READY) return std::optional<Target>{};
         if (result != VK_ERROR_OUT_OF_DATE_KHR) {
             return errorFromResult(result, fmt::format("Vulkan: image of window '{}'", mName));
@@ -322,15 +386,18 @@ void Surface::recordCopy(VkCommandBuffer commands, VkImage source, VkExtent2D ex
                             &barrier);
 }
 
-VkResult Surface::present(Target const& target) {
+VkResult Surface::present(Target const& target, Submissions& submissions) {
     auto info = make<VkPresentInfoKHR>(VK_STRUCTURE_TYPE_PRESENT_INFO_KHR);
     info.waitSemaphoreCount = 1;
     info.pWaitSemaphores = &target.drawn;
     info.swapchainCount = 1;
     info.pSwapchains = &mSwapchain;
     info.pImageIndices = &target.index;
+    if (mFrames) mFrames->request();
     const VkResult result = mDevice.fn().vkQueuePresentKHR(mDevice.queue(), &info);
     mIsStale |= result != VK_SUCCESS; // suboptimal, out of date, or the window is gone: the next acquire() finds out
+    if (result < VK_SUCCESS && mFrames) mFrames->allowAnother(); // nothing was committed
+    askForNext(submissions);
     return result;
 }
 

@@ -3,10 +3,13 @@
 /// what is presented where the window system leaves that to us (Wayland).
 ///   Thread  the driver thread.
 ///   Format  SurfaceFormats.h: what is copied is encoded. Displays of HDR10 are told of the peak (VK_EXT_hdr_metadata).
-///   Waits   acquire() at most kAcquireTimeout for the window system; a new swapchain, and the end, for the device.
+///   Waits   the app thread waits for the window system (WindowGate), while an ImageWaiter does here. acquire() waits
+///           at most kAcquireTimeout, for an app that does not; a new swapchain, and the end, for the device.
 ///   Fails   create(), acquire(): Unsupported, OutOfMemory or Internal, with the name of the window.
 #pragma once
 
+#include "backend/api/FrameCallbacks.h"
+#include "backend/vulkan/ImageWaiter.h"
 #include "backend/vulkan/Submissions.h"
 
 #include <chrono>
@@ -39,7 +42,7 @@ public:
     /// Records the copy of a texture, which Barriers has made Use::TransferRead, and black where it does not reach.
     void recordCopy(VkCommandBuffer commands, VkImage source, VkExtent2D extent, Target const& target) const;
     /// Negative: the window did not take it. A window that has changed gets a new swapchain next time.
-    VkResult present(Target const& target);
+    VkResult present(Target const& target, Submissions& submissions);
 
     /// What the window offers; none: it cannot be asked.
     std::vector<OutputSpace> spaces() const;
@@ -48,9 +51,10 @@ public:
 
 private:
     /// A semaphore that acquire() signals; free again once the submission that waited for it has finished.
+    static constexpr uint64_t kAsked = ~uint64_t{ 0 };
     struct Acquisition {
         VkSemaphore semaphore = VK_NULL_HANDLE;
-        uint64_t serial = 0;
+        uint64_t serial = 0; ///< kAsked: the waiter has it, of no submission yet
     };
     struct Image {
         VkImage image = VK_NULL_HANDLE;
@@ -64,10 +68,17 @@ private:
     std::vector<VkSurfaceFormatKHR> offeredFormats() const;
     Result<VkSurfaceFormatKHR> chooseFormat(Format format) const;
     void describePeak() const;
+    bool hasMode(VkPresentModeKHR mode) const;
     VkPresentModeKHR chooseMode() const;
     VkResult takeImages();
     void dropImages();
     Result<VkSemaphore> freeSemaphore(Submissions& submissions);
+    void setSerial(VkSemaphore semaphore, uint64_t serial);
+    void askForNext(Submissions& submissions);
+    void allowAnother();
+    void dropAsked();
+    Result<std::optional<Target>> tryAcquire(Format format, VkExtent2D wanted, Submissions& submissions);
+    ImageWaiter::Image nextImage(VkSemaphore acquired) const;
     Result<VkSemaphore> makeSemaphore() const;
 
     Device& mDevice;
@@ -82,6 +93,8 @@ private:
     bool mIsStale = true;            ///< the swapchain no longer fits the window
     std::vector<Image> mImages;
     std::vector<Acquisition> mAcquisitions;
+    std::optional<ImageWaiter> mWaiter;      ///< once the window is open
+    std::unique_ptr<FrameCallbacks> mFrames; ///< of Wayland, instead of the waits of Fifo
 };
 
 } // namespace filament_core::backend::vulkan

@@ -6,6 +6,7 @@
 ///   Stream  creations are recorded into `pending` and travel with the next frame or the next flush(): nothing waits.
 #pragma once
 
+#include "backend/api/WindowGate.h"
 #include "backend/stream/CommandStream.h"
 #include "filament_core/engine/HandleTable.h"
 #include "filament_core/engine/LoadTask.h"
@@ -116,8 +117,14 @@ struct SwapChainState {
     uint32_t current = 0; ///< the one rendered last
     uint2 size{};
     Format format = Format::RGBA8;
-    backend::SurfaceHandle surface{};   ///< of its window; none: headless
-    std::array<uint64_t, 2> presents{}; ///< the submissions of the last ones, the older one first
+    backend::SurfaceHandle surface{};          ///< of its window; none: headless
+    std::array<uint64_t, 2> presents{};        ///< the submissions of the last ones, the older one first
+    std::shared_ptr<backend::WindowGate> gate; ///< of the surface
+    uint64_t submitted = 0;                    ///< presents
+    bool isAsleep = false;                     ///< the window took no image for long: nothing waits for it
+
+    /// Whether a present would wait neither for the driver thread nor for the window.
+    bool takesImage() const { return !gate || gate->allowed.load(std::memory_order_acquire) > submitted; }
     std::string name;
 };
 

@@ -490,8 +490,8 @@ void Renderer::present(SwapChain swapChain) {
 
 bool Renderer::canPresent(SwapChain swapChain) const {
     const PublicCall call(mImpl, "Renderer::canPresent(SwapChain)");
-    const uint64_t older = mImpl->engine.swapChains.get(swapChain).presents[0];
-    return mImpl->engine.stream->replayedSubmissions() >= older;
+    engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
+    return mImpl->engine.stream->replayedSubmissions() >= state.presents[0] && state.takesImage();
 }
 
 void Renderer::prewarm(Scene const& scene, View const& view, SwapChain swapChain) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace filament_core {
 
@@ -54,13 +56,14 @@ std::vector<Texture> createImages(Engine::Impl& engine, engine::SwapChainState c
     return images;
 }
 
-SurfaceHandle createSurface(Engine::Impl& engine, SwapChainDesc const& desc) {
+SurfaceHandle createSurface(Engine::Impl& engine, SwapChainDesc const& desc, uint64_t gate) {
     NewHandle surface(*engine.stream, engine.stream->allocateSurface());
     engine.pending.record(CmdCreateSurface{ surface,
                                             { .window = desc.window.handle,
                                               .presentMode = desc.presentMode,
                                               .space = desc.outputSpace,
                                               .peakNits = desc.peakNits,
+                                              .gate = gate,
                                               .debugName = desc.name } });
     return surface.keep();
 }
@@ -80,7 +83,11 @@ SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
     state.name = desc.name;
     state.images = createImages(*this, state, desc.imageCount);
     try {
-        if (desc.window) state.surface = createSurface(*this, desc);
+        if (desc.window) {
+            const NumberedGate numbered = makeWindowGate();
+            state.gate = numbered.gate;
+            state.surface = createSurface(*this, desc, numbered.number);
+        }
     } catch (...) {
         for (Texture image : state.images) destroy(image);
         throw;
@@ -104,12 +111,36 @@ void Engine::Impl::resize(engine::SwapChainState& state, uint2 size) {
     }
 }
 
+namespace {
+
+/// Longer than a slow display takes for two images; a hidden window may take none.
+constexpr std::chrono::milliseconds kLongestRefresh{ 250 };
+
+/// The driver thread serves other windows meanwhile. False: the window takes no image now.
+bool waitForWindow(engine::SwapChainState& state) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + kLongestRefresh;
+    while (!state.takesImage()) {
+        if (state.isAsleep || Clock::now() > end) {
+            state.isAsleep = true;
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    state.isAsleep = false;
+    return true;
+}
+
+} // namespace
+
 void Engine::Impl::present(engine::SwapChainState& state) {
     engine::TextureState const& image = textures.get(state.images[state.current]);
     if (!state.surface || !image.hasContents) return;
     auto& [older, newer] = state.presents;
     // Two presentations behind: the app stays close to what is shown, and the driver thread still has work.
     stream->waitReplayed(older);
+    if (!waitForWindow(state)) return;
+    ++state.submitted;
     FrameCommands commands(*stream);
     drainPending(*commands);
     commands->record(CmdPresent{ state.surface, image.handle });

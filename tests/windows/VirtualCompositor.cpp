@@ -23,6 +23,7 @@ struct VirtualCompositor::Window {
     wl_compositor* compositor = nullptr;
     xdg_wm_base* shell = nullptr;
     wl_surface* surface = nullptr;
+    wl_surface* hidden = nullptr;
     xdg_surface* role = nullptr;
     xdg_toplevel* toplevel = nullptr;
     bool isConfigured = false; ///< it may have images from then on
@@ -31,6 +32,7 @@ struct VirtualCompositor::Window {
         if (toplevel) xdg_toplevel_destroy(toplevel);
         if (role) xdg_surface_destroy(role);
         if (surface) wl_surface_destroy(surface);
+        if (hidden) wl_surface_destroy(hidden);
         if (shell) xdg_wm_base_destroy(shell);
         if (compositor) wl_compositor_destroy(compositor);
         if (registry) wl_registry_destroy(registry);
@@ -138,6 +140,11 @@ VirtualCompositor::~VirtualCompositor() {
 }
 
 wl_surface* VirtualCompositor::surface() const { return mWindow->surface; }
+
+wl_surface* VirtualCompositor::hiddenSurface() {
+    if (!mWindow->hidden) mWindow->hidden = wl_compositor_create_surface(mWindow->compositor);
+    return mWindow->hidden;
+}
 
 void VirtualCompositor::settle() {
     for (int i = 0; i < 3; ++i) wl_display_roundtrip(mDisplay);

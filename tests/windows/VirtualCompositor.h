@@ -34,6 +34,8 @@ public:
 
     wl_display* display() const { return mDisplay; }
     wl_surface* surface() const;
+    /// That no window shows: it has no role, and the compositor never wants an image of it.
+    wl_surface* hiddenSurface();
     /// Answers the compositor's questions until nothing is on its way: after something was presented, say.
     void settle();
     std::optional<Image> picture() const;

@@ -48,5 +48,38 @@ TEST_P(WaylandTest, WindowsShowTheBitsOfTheImage) {
     test::expectNoErrors(*engine);
 }
 
+// A compositor does not ask for images of hidden windows. Drivers wait for it; the driver thread must not.
+TEST_P(WaylandTest, AHiddenWindowDoesNotHoldBackAnother) {
+    const uint2 size(160, 100);
+    const auto compositor = VirtualCompositor::start(size);
+    if (!compositor) return;
+    auto engine = Engine::create({ .backend = GetParam(),
+                                   .workers = 1,
+                                   .display = NativeDisplay::wayland(compositor->display()),
+                                   .validation = true });
+    ASSERT_TRUE(engine.ok()) << engine.error().message;
+    const auto chainOf = [&](wl_surface* surface, const char* name) {
+        return engine->own(
+                engine->create(SwapChainDesc{ .size = size, .window = NativeWindow::wayland(surface), .name = name }));
+    };
+    const Owned<SwapChain> shown = chainOf(compositor->surface(), "shown"),
+                           hidden = chainOf(compositor->hiddenSurface(), "hidden");
+    test::WindowPicture picture(*engine);
+    constexpr uint32_t kFrames = 20;
+    for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        picture.draw(hidden, size, frame); // without asking canPresent(): waits once, then no more
+        picture.draw(shown, size, frame);
+    }
+    engine->waitIdle();
+    EXPECT_FALSE(picture.renderer().canPresent(hidden));
+    EXPECT_GE(engine->statistics().presents, uint64_t{ kFrames } + 1);
+    EXPECT_LE(engine->statistics().presents, uint64_t{ kFrames } + 3) << "the hidden window took one or two";
+    compositor->settle();
+    const std::optional<Image> seen = compositor->picture();
+    ASSERT_TRUE(seen.has_value());
+    EXPECT_EQ(colorsOf(*seen), picture.pixels(shown));
+    test::expectNoErrors(*engine);
+}
+
 } // namespace
 } // namespace filament_core
