@@ -310,7 +310,7 @@ struct LightImageDescription {
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
     /// Renderable RGBA8, RGBA8Srgb, RGB10A2, RGBA16F (then scene-linear, without tone mapping), or RGBA32F (then for
-    /// views with View::aov, or passes alone). Of RGBA8Srgb the texels are those of RGBA8, and samplers decode them.
+    /// views with View::aov, or own passes). Of RGBA8Srgb the texels are those of RGBA8, and samplers decode them.
     /// OpenGL ES needs EXT_sRGB_write_control for it: without, the texture is not created, and takeErrors() reports it.
     Texture color{};
     /// Renderable 2D R32F of the size of what is drawn: linear depth in metres; 1e30 for background. Transparent
@@ -322,7 +322,7 @@ struct RenderTargetDesc {
     /// cubes. What the others hold is kept.
     uint32_t layer = 0;
     /// At most three renderable 2D textures of the size of the target, and of any format that passes can write: the
-    /// attachments 1, 2, 3 of passes alone (Renderer::render(MaterialInstance, ...)). Views do not draw to them.
+    /// attachments 1, 2, 3 of passes without a view and of mesh passes (MeshPass.h). Views do not draw to them.
     std::vector<Texture> others{};
     std::string name{};
 };
