@@ -330,6 +330,12 @@ std::vector<Use> usesOfTargets() {
           [](World& world, Handles const& bad) {
               Renderer(world.engine).prewarm(world.scene, smallView(), bad.chain);
           } },
+        { "Renderer::render(Scene, MeshPass, RenderTarget, View)", "render target", "mirror",
+          [](World& world, Handles const& bad) {
+              Renderer(world.engine).render(world.scene, MeshPass{}, bad.target);
+          } },
+        { "Renderer::prewarm(MaterialInstance, RenderTarget, View)", "render target", "mirror",
+          [](World& world, Handles const& bad) { Renderer(world.engine).prewarm(bad.instance, bad.target); } },
         { "Renderer::readPixels(RenderTarget)", "render target", "mirror",
           [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.target); } },
         { "Renderer::readPixels(SwapChain)", "swap chain", "shop",
@@ -520,6 +526,10 @@ TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
                  line("Renderer::prewarm(Scene, View, SwapChain)"));
     EXPECT_DEATH(renderer.prewarm(other.scene, view, world.all.target),
                  line("Renderer::prewarm(Scene, View, RenderTarget)"));
+    EXPECT_DEATH(renderer.render(other.scene, MeshPass{}, world.all.target),
+                 line("Renderer::render(Scene, MeshPass, RenderTarget, View)"));
+    EXPECT_DEATH(renderer.prewarm(other.scene, MeshPass{}, world.all.target),
+                 line("Renderer::prewarm(Scene, MeshPass, RenderTarget, View)"));
     EXPECT_DEATH(renderer.pick(other.scene, view, {}), line("Renderer::pick(Scene, View, uint2, PickAim)"));
     EXPECT_DEATH((void)renderer.renderToImage(other.scene, view), line("Renderer::renderToImage(Scene, View)"));
 }
