@@ -34,7 +34,7 @@ bool showsBack(P const& pending, std::span<const std::byte> texels, size_t candi
     const auto front = std::ranges::find(pending.fronts, candidate);
     if (front == pending.fronts.end()) return false;
     const auto at = pending.candidates.size() + static_cast<size_t>(front - pending.fronts.begin());
-    return pickedDepthAt(texels, at) < pickedDepthAt(texels, candidate);
+    return pickedDepthAt(texels, at) < pickedDepthAt(texels, candidate) * (1 - kEqual);
 }
 
 /// The nearest; of equal ones the last drawn, as on screen.

@@ -2,6 +2,7 @@
 #include "filament_core/passes/AppPass.h"
 
 #include "filament_core/passes/DebugSurfacePass.h"
+#include "filament_core/passes/SectionDepthPass.h"
 
 #include <algorithm>
 
@@ -32,7 +33,7 @@ TextureId addAppDistances(FrameGraph& graph, FrameContext const& context, Textur
 /// Made for the first pass that reads them.
 void makeAppInputs(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, AppPass const& pass) {
     if (pass.has(AppInput::Depth) && !targets.appDistances)
-        targets.appDistances = addAppDistances(graph, context, targets.sceneDepth);
+        targets.appDistances = addAppDistances(graph, context, depthWithCaps(graph, context, targets.sceneDepth));
     if (pass.has(AppInput::Normals) && !targets.appNormals)
         targets.appNormals = addNormalsPass(graph, context, context.settings().size);
 }

@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PostProcessPass.h"
+#include "filament_core/passes/SectionDepthPass.h"
 #include "filament_core/passes/Reprojection.h"
 
 #include <array>
@@ -152,7 +153,7 @@ void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTarget
 }
 
 void addDepthView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
-    const TextureId depth = targets.sectionDepth ? targets.sectionDepth : targets.depth;
+    const TextureId depth = targets.sectionDepth ? targets.sectionDepth : depthWithCaps(graph, context, targets.depth);
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = depth } };
     addFullScreenPass(
             graph, context,

@@ -18,4 +18,12 @@ bool showsCaps(FrameContext const& context);
 framegraph::TextureId addSectionDepthPass(framegraph::FrameGraph& graph, FrameContext const& context,
                                           framegraph::TextureId depth);
 
+/// The same if the view shows caps; otherwise `depth` itself. Resolved depths of several samples stay those of back
+/// faces.
+inline framegraph::TextureId depthWithCaps(framegraph::FrameGraph& graph, FrameContext const& context,
+                                           framegraph::TextureId depth) {
+    const bool hasCaps = context.settings().samples == 1 && showsCaps(context);
+    return hasCaps ? addSectionDepthPass(graph, context, depth) : depth;
+}
+
 } // namespace filament_core::passes

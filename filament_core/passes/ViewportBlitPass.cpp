@@ -2,6 +2,7 @@
 #include "filament_core/passes/ViewportBlitPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/SectionDepthPass.h"
 
 #include <array>
 
@@ -142,7 +143,8 @@ void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput 
                                                                       .name = "view depths" });
     const bool isScaled = sizeOf(graph, targets.sceneDepth) != settings.shownSize;
     const std::array constants{ EffectConstant{ "isScaled", isScaled } };
-    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.sceneDepth } };
+    const framegraph::TextureId depth = depthWithCaps(graph, context, targets.sceneDepth);
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = depth } };
     addFullScreenPass(graph, context,
                       { .name = "target depth",
                         .material = context.resources.effects->get("linear_depth", constants, kTargetDepth),

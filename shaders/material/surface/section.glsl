@@ -120,7 +120,9 @@ void cutSurface() {
         } else {
             section_isCut = sectionDistance(section_point) < 0.0;
         }
+#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED) // the depth test finds the first surface of these alone
         if (!gl_FrontFacing && ofFragment(frameUniforms.section.z) > 0.0) findCap();
+#endif
     }
 }
 

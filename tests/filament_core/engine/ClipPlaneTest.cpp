@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A section: a material that cuts what it draws at a plane of the view, as docs/views.md shows. Light, shadows, depths
+// A material that cuts what it draws at a plane of its own, View::materialGlobals, without caps. Light, shadows, depths
 // and picks are those of the part that is left.
 #include "tests/filament_core/engine/ShadowStage.h"
 
