@@ -3,8 +3,8 @@
 
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PostProcessPass.h"
-#include "filament_core/passes/SectionDepthPass.h"
 #include "filament_core/passes/Reprojection.h"
+#include "filament_core/passes/SectionDepthPass.h"
 
 #include <array>
 

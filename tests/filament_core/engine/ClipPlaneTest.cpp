@@ -8,7 +8,7 @@ namespace {
 
 using test::ShadowStage;
 
-constexpr const char* kCut = R"(material { name : cut, shadingModel : lit, doubleSided : true }
+constexpr const char* kCutAtAPlane = R"(material { name : cut, shadingModel : lit, doubleSided : true }
 fragment { void material(inout MaterialInputs material) {
     vec4 plane = getMaterialGlobal0(); // what is behind it is not there
     if (dot(plane, vec4(getUserWorldPosition(), 1.0)) < 0.0) discard;
@@ -19,7 +19,7 @@ fragment { void material(inout MaterialInputs material) {
 
 struct ClipPlaneTest : testing::TestWithParam<Backend> {
     ShadowStage stage{ GetParam() };
-    Owned<Material> cut = test::loadMaterial(stage.engine, kCut);
+    Owned<Material> cut = test::loadMaterial(stage.engine, kCutAtAPlane);
     Owned<MaterialInstance> section = stage.engine.own(stage.engine.createInstance(cut));
 
     /// A square above a floor, all of which is cut at x = 0.31; `left`: the part before it, of which nothing is.
