@@ -51,7 +51,7 @@ float3 colorOf(std::string_view line, float3 fallback, float most) {
     return count < 3 ? float3(n[0]) : float3(n[0], n[1], n[2]);
 }
 
-float numberOf(std::string_view line, float fallback, float low, float high) {
+float clampedNumber(std::string_view line, float fallback, float low, float high) {
     const std::optional<float> number = floatOf(takeWord(line));
     return number ? std::clamp(*number, low, high) : fallback;
 }
@@ -64,16 +64,16 @@ void readValue(std::string_view word, std::string_view line, MeshFileMaterial& m
     } else if (word == "Ns") {
         // the width of a Blinn-Phong lobe: alpha^2 = 2 / (n + 2), and alpha is the roughness squared. Walter et al.
         // 2007, section 5.2
-        const float exponent = numberOf(line, 0, 0, 1e6f);
+        const float exponent = clampedNumber(line, 0, 0, 1e6f);
         material.roughness = std::sqrt(std::sqrt(2 / (exponent + 2)));
     } else if (word == "Pr") {
-        material.roughness = numberOf(line, material.roughness, 0, 1);
+        material.roughness = clampedNumber(line, material.roughness, 0, 1);
     } else if (word == "Pm") {
-        material.metallic = numberOf(line, material.metallic, 0, 1);
+        material.metallic = clampedNumber(line, material.metallic, 0, 1);
     } else if (word == "d") {
-        material.baseColor.w = numberOf(line, material.baseColor.w, 0, 1);
+        material.baseColor.w = clampedNumber(line, material.baseColor.w, 0, 1);
     } else if (word == "Tr") {
-        material.baseColor.w = 1 - numberOf(line, 1 - material.baseColor.w, 0, 1);
+        material.baseColor.w = 1 - clampedNumber(line, 1 - material.baseColor.w, 0, 1);
     } else if (word == "map_Kd") {
         material.baseColorMap = mapOf(line, diagnostics);
     } else if (word == "map_Ke") {

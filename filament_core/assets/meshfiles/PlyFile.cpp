@@ -20,7 +20,7 @@ constexpr size_t kMostProperties = 256, kMostElements = 16, kMostVertices = 0xFF
 
 enum class Number : uint8_t { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
 
-std::optional<Number> numberOf(std::string_view name) {
+std::optional<Number> typeNamed(std::string_view name) {
     constexpr std::array<std::pair<std::string_view, Number>, 16> kNames{ { { "char", Number::Int8 },
                                                                             { "int8", Number::Int8 },
                                                                             { "uchar", Number::Uint8 },
@@ -69,12 +69,12 @@ Result<Property> readProperty(std::string_view words) {
     Property property;
     std::string_view type = takeWord(words);
     if (type == "list") {
-        property.count = numberOf(takeWord(words));
+        property.count = typeNamed(takeWord(words));
         if (!property.count || *property.count >= Number::Float)
             return fail(ErrorCode::Corrupt, "the header has a list without a type of its length");
         type = takeWord(words);
     }
-    const std::optional<Number> number = numberOf(type);
+    const std::optional<Number> number = typeNamed(type);
     property.name = takeWord(words);
     if (!number || property.name.empty())
         return fail(ErrorCode::Corrupt, "the header has a property without a type or a name");
