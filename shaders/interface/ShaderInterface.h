@@ -177,7 +177,7 @@ struct ObjectUniforms {
 /// one: the object alone, then this. u: where in the box a point is, in [-1, 1] along the axes of the world.
 struct IrradianceField {
     ObjectData object;
-    float4 center;      ///< xyz: of the box, relative to the camera; w: the object's number, where a debug view shows it
+    float4 center;      ///< xyz: of the box, relative to the camera; w: the object's number in debug views of numbers
     float4 inverseHalf; ///< xyz: 1 / half its sides, 1 / metres; w: unused
     /// Of the first four coefficients of irradiance / pi, as FrameUniforms::irradianceSh, red, green and blue each:
     /// xyz: change with u; w: in the middle. Before FrameUniforms::ambient.x.

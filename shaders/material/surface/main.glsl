@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragment stage of lit surface materials, entry point.
+// Size: main() is the order in which the light of a surface comes together, read from top to bottom.
 
 // Before the author's code and the mask, which may discard neighbours: a fragment that a device has ended has undefined
 // derivatives (OpenGL ES Shading Language, "Derivative Functions"). GPUs stop there, Mesa's CPU drivers do not.

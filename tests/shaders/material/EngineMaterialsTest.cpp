@@ -213,8 +213,8 @@ TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllMaterialsOfAGltfFamily)
     for (const char* family : { "gltf_lit", "gltf_layered", "gltf_specular_glossiness", "gltf_transmissive_thin",
                                 "gltf_transmissive_solid", "gltf_scattering" })
         expectTheSameInterface(family, { "_masked", "_blended" });
-    // Those with section planes take the settings of those without; a masked one draws opaque materials, and the layered
-    // ones what has no layers.
+    // Those with section planes take the settings of those without; a masked one draws opaque materials, and the
+    // layered ones what has no layers.
     for (const char* suffix : { "_masked", "_blended" }) {
         for (const char* family :
              { "layered", "unlit", "specular_glossiness", "transmissive_thin", "transmissive_solid", "scattering" }) {
