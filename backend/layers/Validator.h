@@ -108,6 +108,7 @@ private:
 
     struct SurfaceModel {
         std::string name;
+        OutputSpace space = OutputSpace::Srgb;
     };
 
     /// What is bound inside a pass, for draws, or outside, for dispatches; subpasses and the begin and end of a pass

@@ -173,8 +173,9 @@ void Validator::execute(CmdPresent const& command) {
     mObject = surface->name;
     if (!checkBlitSide(*texture, "texture", TextureUsage::TransferSource)) return;
     const Format format = texture->desc.format;
-    require(format == Format::RGBA8 || format == Format::RGB10A2 || format == Format::RGBA16F, Harm::WrongResult,
-            "texture '{}' is {}; a window shows RGBA8, RGB10A2 or RGBA16F", texture->name, formatInfo(format).name);
+    const bool isScRgb = format == Format::RGBA16F && surface->space == OutputSpace::LinearRec709;
+    require(format == Format::RGBA8 || format == Format::RGB10A2 || isScRgb, Harm::WrongResult,
+            "texture '{}' is {}; a window shows RGBA8 or RGB10A2", texture->name, formatInfo(format).name);
 }
 
 } // namespace filament_core::backend

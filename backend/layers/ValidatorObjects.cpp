@@ -418,7 +418,7 @@ void Validator::execute(CmdCreateSurface const& command) {
     SurfaceDesc const& desc = command.desc;
     if (!mayCreate(mSurfaces, command, desc.debugName)) return;
     require(desc.window != 0, Harm::Crash, "the window is none; give it the handle of one");
-    if (!mCommandCrashes) mSurfaces.create(command.handle, { std::string(desc.debugName) });
+    if (!mCommandCrashes) mSurfaces.create(command.handle, { std::string(desc.debugName), desc.space });
 }
 
 } // namespace filament_core::backend

@@ -74,7 +74,7 @@ class StreamStage {
 public:
     StreamStage(Backend backend, Layout layout)
             : mLayout(layout), engine(*test::makeEngine(backend)), scene(engine), renderer(engine) {
-        mMaterial = engine.own(*createBuiltInMaterial(engine, "lit"));
+        mMaterial = engine.own(*createBuiltInMaterial(engine, "litVertexColors"));
         mInstance = engine.own(engine.createInstance(mMaterial));
         const Mesh mesh = ball(), plate = *makePlane({ .width = 4, .depth = 4 });
         vertices = engine.own(layout == Layout::Interleaved
@@ -176,7 +176,7 @@ TEST(VertexStreams, MistakesAreNamed) {
         return test::misuseLine(std::string("Engine::create(VertexBufferDesc) of 'in streams': ") + what);
     };
     EXPECT_DEATH(create([](VertexBufferDesc& desc) { desc.streams[1].data = desc.streams[1].data.first(160); }),
-                 line("stream 2 has 160 bytes, which is not 325 vertices of 16 bytes: streams have as many vertices as "
+                 line("stream 2 has 160 bytes, which is not 323 vertices of 16 bytes: streams have as many vertices as "
                       "the buffer"));
     EXPECT_DEATH(create([](VertexBufferDesc& desc) { desc.streams[1].attributes[0].attribute = Attribute::Uv0; }),
                  line("streams 1 and 2 both have attribute Uv0; a vertex has each of them once"));
