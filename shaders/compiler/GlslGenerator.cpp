@@ -428,8 +428,9 @@ Result<std::string> debugFragment(MaterialDefinition const& definition, Material
     StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = surfaceBlock(out, definition, needs);
-    const bool isCut = definition.package.blending == Blending::Masked || definition.package.alphaToCoverage;
-    if (done && isCut) done = out.include("shaders/material/surface/output.glsl");
+    const bool hasHoles = definition.package.blending == Blending::Masked || definition.package.alphaToCoverage ||
+                          definition.package.sectionPlanes;
+    if (done && hasHoles) done = out.include("shaders/material/surface/output.glsl");
     if (done)
         done = includeAll(out, { "shaders/lib/color.glsl", "shaders/lib/brdf.glsl", "shaders/lib/plausible.glsl",
                                  "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });

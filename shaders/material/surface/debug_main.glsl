@@ -143,16 +143,16 @@ void main() {
     applySection(inputs);
 #endif
     int view = int(ofFragment(passUniforms.raster.z));
+    highp vec4 shown = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
 #if defined(HAS_SECTION_PLANES)
     if ((view & (kViewNumbers - 1)) == kViewCapDepth) {
         if (!section_isCap) discard;
-        fragment_color = vec4(capDepth(), 0.0, 0.0, 1.0);
-        return;
+        shown = vec4(capDepth(), 0.0, 0.0, 1.0); // no return: a program that writes a mask writes it on all of its ways
     }
 #endif
-    highp vec4 shown = debugValue(inputs, level, view & (kViewNumbers - 1), view >= kViewNumbers);
-#if defined(ALPHA_TO_COVERAGE)
-    applyCoverage(shown);
-#endif
+#if defined(ALPHA_TO_COVERAGE) || defined(HAS_SECTION_PLANES)
+    writeColor(shown);
+#else
     fragment_color = shown;
+#endif
 }
