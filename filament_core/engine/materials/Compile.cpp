@@ -99,7 +99,8 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
 bool selects(passes::PassSlot const& slot, shader::MaterialPackage const& package, uint8_t variant) {
     if (slot.isFullScreen || slot.stencil) return false; // those with stencil follow from the others
     // Views draw surfaces to one colour at a time. Renderer::prewarm() asks for pipelines of mesh passes.
-    if (std::popcount(slot.layout.subpasses[slot.subpass].colorMask) > 1) return false;
+    const uint32_t attached = (1u << slot.layout.colorCount) - 1;
+    if (std::popcount(slot.layout.subpasses[slot.subpass].colorMask & attached) > 1) return false;
     if (slot.transparency != shader::kTransparencyInOrder && !shader::blendsInAnyOrder(package)) return false;
     if (slot.depthOnly)
         return package.findVariant(shader::kVariantDepth) && (variant & ~bitsOf(VariantSet::Skinning)) == 0;
