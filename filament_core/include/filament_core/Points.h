@@ -84,14 +84,8 @@ public:
     Node addTo(Scene& scene, MaterialInstance material, NodeDesc const& node = {}, double marginMeters = 0) const;
 
 private:
-    struct Group {
-        double3 center;
-        Box bounds;
-        uint32_t indexCount;
-        Owned<VertexBuffer> vertices;
-    };
-    Owned<IndexBuffer> mIndices;
-    std::vector<Group> mGroups;
+    struct Buffers;
+    std::shared_ptr<const Buffers> mBuffers; ///< never change; copies share them
 };
 
 } // namespace filament_core
