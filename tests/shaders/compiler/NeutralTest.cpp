@@ -34,6 +34,7 @@ constexpr Default kDefaults[] = {
     { "interpolation", "smooth" },
     { "fullScreenTriangle", "false" },
     { "wideLines", "false" },
+    { "sectionPlanes", "false" },
     { "sizedPoints", "false" },
     { "halfPrecision", "false" },
     { "blending", "opaque" },
