@@ -5,13 +5,13 @@ import pathlib
 import re
 
 INCLUDE = "filament_core/include/filament_core/"
-HEADERS = ("DisplayTransform", "Effects", "Light", "LoadOptions", "Quality", "View")
+HEADERS = ("DisplayTransform", "Effects", "Light", "LoadOptions", "Quality", "SectionPlanes", "View")
 ROW = re.compile(r"^\| `([\w.]+)` \| ([^|]*) \|", re.MULTILINE)
 BETWEEN = re.compile(r"from (-?[\d.]+) to (-?[\d.]+)")
 STRUCT = re.compile(r"^struct (\w+) \{\n(.*?)^\};", re.MULTILINE | re.DOTALL)
 # A declaration with the comment before it, the comment behind it, and the lines on which that continues.
 MEMBER = re.compile(r"((?:^    ///(?!<).*\n)*)^    (?!friend|///)[\w:<>]+ ([^;]*);[ ]*(///<.*(?:\n {8,}///<.*)*)?", re.MULTILINE)
-GROUPS = {"EnvironmentLoadOptions": "environment", "GltfLoadOptions": "model", "LevelsOfDetail": "lod", "SunLight": "sun"}  # of options; others are called as their struct
+GROUPS = {"EnvironmentLoadOptions": "environment", "GltfLoadOptions": "model", "LevelsOfDetail": "lod", "SectionPlanes": "section", "SunLight": "sun"}  # of options; others are called as their struct
 MASK = ".lightChannels"  # all values of its type
 RANGE = re.compile(r"\[(-?[\d.e' -]+), (-?[\d.e' -]+)\]")
 
