@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -34,7 +35,8 @@ TEST(OptionTable, NumbersOfWidgetsAreAccepted) {
         if (option.kind != OptionKind::Number && option.kind != OptionKind::Integer) continue;
         for (const double limit : { option.least, option.most }) {
             View view;
-            const std::vector<float> numbers(option.components, static_cast<float>(limit));
+            constexpr double kMost = std::numeric_limits<float>::max(); // of numbers without limits
+            const std::vector<float> numbers(option.components, static_cast<float>(std::clamp(limit, -kMost, kMost)));
             EXPECT_TRUE(setOption(view, option.name, optionText(option, numbers))) << option.name << '=' << limit;
         }
     }
