@@ -103,8 +103,10 @@ struct FrameCallbacks::State {
         WaylandClient const& wayland = client();
         constexpr int kSliceMilliseconds = 20;
         while (!ends.load(std::memory_order_relaxed)) {
-            while (wayland.prepareRead(display, queue) != 0)
-                if (wayland.dispatchPending(display, queue) < 0) return;
+            bool isLost = false;
+            while (!isLost && wayland.prepareRead(display, queue) != 0)
+                isLost = wayland.dispatchPending(display, queue) < 0;
+            if (isLost) break;
             wayland.flush(display);
             pollfd file{ wayland.fileOf(display), POLLIN, 0 };
             if (poll(&file, 1, kSliceMilliseconds) <= 0) {
