@@ -14,7 +14,9 @@ struct GridPacket {
     std::span<const uint8_t> inView;                 ///< by scene::Grids::records: its box reaches into the view
     std::span<const shader::IrradianceField> fields; ///< DrawCall::firstField
     uint32_t used = 0, outOfReach = 0;               ///< grids
-    uint32_t evaluated = 0;                          ///< fields that were not known from an earlier frame
+    float unit = 0;                 ///< from candela / m2 to what shaders multiply by FrameUniforms::ambient.x
+    bool isEnvironmentDark = false; ///< it has 0 lux, so nothing of it may show beside the light of grids
+    uint32_t evaluated = 0;         ///< fields that were not known from an earlier frame
     float largestError = 0; ///< of a field: root mean square of what it lacks at the points that it was fitted to, in
                             ///< shares of their mean
 

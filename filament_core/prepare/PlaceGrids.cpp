@@ -144,9 +144,13 @@ GridPacket findGrids(Arena& arena, scene::SceneData const& scene, ViewInput cons
         ++(inView[i] != 0 ? grids.used : grids.outOfReach);
     }
     grids.inView = inView;
-    // Light is stored in units of the environment's. One of 0 lux stays dark: its light is 2^-40 of a lux.
-    if (grids.used > 0 && !(packet.uniforms.ambient.x > 0))
-        packet.uniforms.ambient.x = space.exposure * (scene.indirectLight.specular ? 0x1p-40f : 1.0f);
+    if (grids.used == 0) return grids;
+    // Light is stored in units of the environment's; without one, pre-exposed, which half floats can hold. Before light
+    // is left out for shares (DarkLights.h), so that the light of grids goes with the environment's.
+    float& ambient = packet.uniforms.ambient.x;
+    grids.isEnvironmentDark = !(ambient > 0);
+    if (grids.isEnvironmentDark) ambient = 1, packet.uniforms.irradianceSh = {};
+    grids.unit = space.exposure / ambient;
     return grids;
 }
 
@@ -164,7 +168,6 @@ void placeFields(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& sc
 
     const IrradianceSh environment = environmentOf(scene, main.uniforms);
     if (cache) cache->begin({ scene.serial, scene.grids.changes, environment }, scene.renderables.count());
-    const float unit = makeViewSpace(view).exposure / main.uniforms.ambient.x;
     const auto fields = arena.array<shader::IrradianceField>(renderables.size());
     const auto errors = arena.arrayForOverwrite<float>(renderables.size());
     const auto fitted = arena.arrayForOverwrite<uint8_t>(renderables.size());
@@ -179,7 +182,7 @@ void placeFields(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& sc
             errors[i] = entry.field.error;
             fields[i].object = objectData(scene.renderables.placement[at], main.objects.cameraWorld);
             fields[i].object.flags.w = main.objects.firstBone(at);
-            write(fields[i], entry.field, box, makeViewSpace(view).cameraWorld, unit);
+            write(fields[i], entry.field, box, makeViewSpace(view).cameraWorld, packet.grids.unit);
         }
     });
     packet.grids.fields = fields;

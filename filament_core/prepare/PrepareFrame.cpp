@@ -23,11 +23,12 @@
 namespace filament_core::prepare {
 namespace {
 
-EnvironmentPacket environmentOf(scene::SceneData const& scene) {
-    return { .specular = scene.indirectLight.specular,
-             .irradiance = scene.indirectLight.irradiance,
+EnvironmentPacket environmentOf(scene::SceneData const& scene, GridPacket const& grids) {
+    scene::IndirectLightRecord const& light = scene.indirectLight;
+    return { .specular = grids.isEnvironmentDark ? backend::TextureHandle{} : light.specular,
+             .irradiance = grids.isEnvironmentDark ? backend::TextureHandle{} : light.irradiance,
              .sky = scene.skybox.cube,
-             .storage = scene.indirectLight.storage,
+             .storage = light.storage,
              .skyHasGround = scene.skybox.ground.heightMeters > 0,
              .skyIsRgbm = scene.skybox.isRgbm };
 }
@@ -198,7 +199,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
-    packet.environment = environmentOf(scene);
+    packet.environment = environmentOf(scene, grids);
     packet.probes = probes;
     packet.grids = grids;
     packet.settings = settings;

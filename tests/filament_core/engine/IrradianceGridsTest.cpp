@@ -19,6 +19,13 @@ const std::string& whiteLambert() {
     return kText;
 }
 
+const std::string& mirror() {
+    static const std::string kText =
+            text("shadingModel : lit", "material.baseColor = vec4(1.0); material.metallic = 1.0; "
+                                       "material.roughness = 0.0;");
+    return kText;
+}
+
 float nitsOfWhite(MaterialStage const& stage) { return 1 / stage.view.camera.exposure.factor(); }
 
 /// Brighter to the right: 1 at x = 0, half a unit a metre.
@@ -84,9 +91,28 @@ TEST(IrradianceGrids, TheyReplaceTheDiffuseLightOfTheEnvironmentAlone) {
                 .x;
     };
     EXPECT_NEAR(middle(whiteLambert()), 1, 0.01f);
-    EXPECT_NEAR(middle(text("shadingModel : lit", "material.baseColor = vec4(1.0); material.metallic = 1.0; "
-                                                  "material.roughness = 0.0;")),
-                0.25f, 0.01f);
+    EXPECT_NEAR(middle(mirror()), 0.25f, 0.01f);
+}
+
+// An environment of 0 lux does not show beside the light of a grid, in half floats, either: neither its reflections nor
+// its diffuse light on what no grid reaches.
+TEST(IrradianceGrids, TheyLightAloneWhereTheEnvironmentIsDark) {
+    const Image image = inGrid(double3(0), [](MaterialStage& stage) {
+        stage.view.quality.shadingPrecision = ShadingPrecision::Half;
+        const auto sky = std::make_shared<SkyObjects>(stage, Sky{ float3(4) });
+        stage.keep(sky);
+        stage.scene.setIndirectLight(sky->light, Lux{ 0 });
+        const MaterialInstance white = stage.material(whiteLambert(), kNoLights);
+        for (const double x : { -1.0, 0.0 }) addTile(stage, white, { x, 0, 0 });
+        addTile(stage, stage.material(mirror(), kNoLights), { 0, 0.6, 0 });
+        IrradianceGridDesc grid = rightwards(stage);
+        grid.halfExtentMeters = { 0.5f, 2, 2 };
+        grid.blendMeters = 0.1f;
+        stage.scene.add(grid);
+    });
+    EXPECT_NEAR(halfPixel(image, columnOf(0), kImageSide / 2).x, 1, 0.3f);
+    EXPECT_EQ(halfPixel(image, columnOf(-1), kImageSide / 2).x, 0);
+    EXPECT_EQ(halfPixel(image, columnOf(0), kImageSide - 1 - columnOf(0.6f)).x, 0);
 }
 
 TEST(IrradianceGrids, LightFromOneSideIsThatOfTheNormal) {

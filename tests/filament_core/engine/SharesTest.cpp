@@ -2,6 +2,7 @@
 // Shares of lights and effects: that they add up to the picture's bits, and that each is what its light alone gives.
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tests/scenes/GridOf.h"
 
 #include <filament_core/ExplainPixel.h>
 
@@ -192,6 +193,24 @@ TEST(Shares, OfDarkLightsAreNothing) {
     stage.view.effects.fog.enabled = true;
     stage.view.effects.fog.color = LinearColor{ 0 };
     EXPECT_EQ(wrongSums(stage.shares(), stage.picture()), 0u);
+}
+
+// A grid's light has the factor of the environment's, and is dark with it.
+TEST(Shares, OfIrradianceGridsAreTheEnvironments) {
+    test::sameOnBothApis<ShareStage>([&](ShareStage& stage) {
+        IrradianceGridDesc grid =
+                scenes::gridOf(float3(3), uint3(2), [](float3) { return scenes::ambientOf(float3(0.5f)); });
+        grid.intensity = 1 / stage.view.camera.exposure.factor();
+        const IrradianceGrid added = stage.scene.add(grid);
+        const Shares shares = stage.shares();
+        EXPECT_EQ(namesOf(shares), kLightNames);
+        EXPECT_EQ(wrongSums(shares, stage.picture()), 0u);
+        stage.scene.remove(added);
+        for (const Light light : stage.lights) stage.scene.remove(light);
+        stage.scene.setIndirectLight({}, Lux{ 0 });
+        EXPECT_EQ(shares.sums[0].pixels, stage.picture().pixels);
+        return shares.sums;
+    });
 }
 
 TEST(Shares, LeaveTheFramesOfOtherRenderersAsTheyAre) {
