@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -66,18 +67,27 @@ Result<void> explain(Engine& engine, Scene const& scene, View const& view, uint3
     return {};
 }
 
+/// What renderShares() draws of it.
+View wholeOf(View const& view) {
+    View whole = view;
+    whole.viewport.reset();
+    whole.effects.resolution.dynamic = false;
+    return whole;
+}
+
 } // namespace
 
 std::string ShareTally::line() const {
     return fmt::format(
             "shares of {} pictures ({} left out): {} terms of light, {} of effects, {} pixels, {} of them not "
-            "finite, {} with another sum; {} pixels explained",
-            pictures, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained);
+            "finite, {} with another sum; {} pixels explained; emission of {} pictures, {} pixels with light",
+            pictures, leftOut, terms - effects, effects, pixels, notFinite, wrong, explained, unlit, lightInEmission);
 }
 
 ShareTally& ShareTally::operator+=(ShareTally const& more) {
     pictures += more.pictures, leftOut += more.leftOut, terms += more.terms, effects += more.effects;
     pixels += more.pixels, notFinite += more.notFinite, wrong += more.wrong, explained += more.explained;
+    unlit += more.unlit, lightInEmission += more.lightInEmission;
     return *this;
 }
 
@@ -87,9 +97,7 @@ Result<ShareVerdict> checkShares(Engine& engine, Scene const& scene, View const&
         verdict.tally.leftOut = 1;
         return verdict;
     }
-    View whole = view;
-    whole.viewport.reset();
-    whole.effects.resolution.dynamic = false;
+    const View whole = wholeOf(view);
     const Result<Image> picture = drawnAtOnce(engine, scene, whole, frames);
     if (!picture) return picture.error();
     const Result<Shares> shares = renderShares(engine, scene, whole, { .terms = ShareTerms::All, .frames = frames });
@@ -99,8 +107,29 @@ Result<ShareVerdict> checkShares(Engine& engine, Scene const& scene, View const&
     for (ShareTerm const& term : shares->terms) verdict.tally.effects += term.kind == ShareKind::Effect ? 1 : 0;
     for (Image const& sum : shares->sums) verdict.hash = verdict.hash * 31 + hashBytes(sum.pixels);
     compareSums(*shares, *picture, verdict);
+    verdict.emission = shares->sums.front();
     if (Result<void> done = explain(engine, scene, whole, frames, *picture, verdict); !done) return done.error();
     return verdict;
+}
+
+Result<void> compareEmission(Engine& engine, Scene const& unlit, View const& view, uint32_t frames,
+                             ShareVerdict& verdict) {
+    const Result<Shares> shares =
+            renderShares(engine, unlit, wholeOf(view), { .terms = ShareTerms::All, .frames = frames });
+    if (!shares) return shares.error();
+    const auto isLight = [](ShareTerm const& term) {
+        return term.kind == ShareKind::Environment || term.kind == ShareKind::Lights;
+    };
+    if (std::ranges::any_of(shares->terms, isLight)) return {};
+    verdict.tally.unlit = 1;
+    Image const& expected = shares->sums.front();
+    constexpr size_t kPixelBytes = 4 * sizeof(uint16_t);
+    for (size_t at = 0; at < expected.pixels.size(); at += kPixelBytes)
+        if (std::memcmp(&expected.pixels[at], &verdict.emission.pixels[at], kPixelBytes) != 0)
+            ++verdict.tally.lightInEmission;
+    if (verdict.tally.lightInEmission > 0)
+        verdict.faults.push_back(fmt::format("{} pixels of the emission have light", verdict.tally.lightInEmission));
+    return {};
 }
 
 } // namespace filament_core::conformance

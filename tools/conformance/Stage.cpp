@@ -12,6 +12,15 @@
 #include <glm/ext/matrix_transform.hpp>
 
 namespace filament_core::conformance {
+namespace {
+
+SceneSpec withoutLights(SceneSpec spec) {
+    spec.lights.clear(), spec.lightProfiles.clear(), spec.lightImages.clear();
+    spec.probes.clear(), spec.grids.clear();
+    return spec;
+}
+
+} // namespace
 
 Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::unique_ptr<backend::StreamEdit> edit,
                                            DefectSize size) {
@@ -150,7 +159,17 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
 Result<ShareVerdict> Stage::shares() {
     settleTextures();
     setBack(0);
-    return checkShares(mEngine, mShown->scene, mView, mSpec.frames);
+    Result<ShareVerdict> verdict = checkShares(mEngine, mShown->scene, mView, mSpec.frames);
+    if (!verdict || verdict->tally.pictures == 0) return verdict;
+    const SceneSpec lit = mSpec;
+    if (Result<void> unlit = set(withoutLights(lit)); !unlit) return unlit.error();
+    mShown->scene.setIndirectLight({}, Lux{ 0 });
+    settleTextures();
+    setBack(0);
+    Result<void> compared = compareEmission(mEngine, mShown->scene, mView, mSpec.frames, *verdict);
+    if (compared) compared = set(lit);
+    if (!compared) return compared.error();
+    return verdict;
 }
 
 DefectReach Stage::reach() {
