@@ -114,6 +114,7 @@ private:
             for (size_t copy = 0; copy < mCopies.size(); ++copy) {
                 if (mMerge.copies[copy] != index || !ofFile || !ofFile->is_array()) continue;
                 for (Json channel : *ofFile) {
+                    if (!isChannelInside(channel, source.json)) continue;
                     if (!shiftChannel(channel, source.offsets, mCopies[copy], isFirst)) continue;
                     noteAnimated(channel);
                     channels.push_back(std::move(channel));
@@ -171,7 +172,7 @@ private:
     void setValue(Json& material, GltfMergeValue const& value) {
         // A factor of a map, such as the scale of normals, means nothing without the map.
         if (const size_t end = value.pointer.find("Texture/"); end != std::string::npos) {
-            const nlohmann::ordered_json::json_pointer map("/" + value.pointer.substr(0, end + 7));
+            const Json::json_pointer map(fmt::format("/{}", std::string_view(value.pointer).substr(0, end + 7)));
             if (!material.contains(map)) return;
         }
         Json& member = memberAt(material, value.pointer);

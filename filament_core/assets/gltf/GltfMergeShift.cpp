@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfMergeShift.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -51,31 +55,62 @@ void shiftVariants(Json& primitive, GltfOffsets const& by) {
     }
 }
 
+/// An array of a file by the beginning of the pointers to its elements.
+struct PointedArray {
+    std::string_view prefix;
+    size_t by;
+    bool isShared; ///< its elements are not of a copy
+};
+
+std::array<PointedArray, 7> pointedArrays(GltfOffsets const& by, GltfCopyOffsets const& copy) {
+    return { { { "/nodes/", copy.nodes, false },
+               { "/meshes/", by.meshes, true },
+               { "/materials/", by.materials, true },
+               { "/cameras/", by.cameras, true },
+               { "/extensions/KHR_lights_punctual/lights/", by.lights, true },
+               { "/extensions/EXT_lights_image_based/lights/", by.environments, true },
+               { "/extensions/EXT_lights_ies/lights/", by.profiles, true } } };
+}
+
+/// The index that a pointer has behind its prefix, and where it ends.
+struct PointerIndex {
+    size_t value = 0, end = 0;
+};
+
+std::optional<PointerIndex> indexOf(std::string_view pointer, size_t begin) {
+    uint32_t value = 0;
+    const auto [at, failure] = std::from_chars(pointer.data() + begin, pointer.data() + pointer.size(), value);
+    const auto end = static_cast<size_t>(at - pointer.data());
+    if (failure != std::errc() || (end < pointer.size() && pointer[end] != '/')) return std::nullopt;
+    return PointerIndex{ value, end };
+}
+
 /// "/nodes/3/..." with the index moved; `isShared`: what it names is not of a copy.
 std::string shiftedPointer(std::string const& pointer, GltfOffsets const& by, GltfCopyOffsets const& copy,
                            bool& isShared) {
-    struct Row {
-        std::string_view prefix;
-        size_t by;
-        bool isShared;
-    };
-    const Row rows[] = { { "/nodes/", copy.nodes, false },
-                         { "/meshes/", by.meshes, true },
-                         { "/materials/", by.materials, true },
-                         { "/cameras/", by.cameras, true },
-                         { "/extensions/KHR_lights_punctual/lights/", by.lights, true },
-                         { "/extensions/EXT_lights_image_based/lights/", by.environments, true },
-                         { "/extensions/EXT_lights_ies/lights/", by.profiles, true } };
-    for (Row const& row : rows) {
-        if (!pointer.starts_with(row.prefix)) continue;
-        isShared = row.isShared;
-        const size_t begin = row.prefix.size(), end = std::min(pointer.find('/', begin), pointer.size());
-        const std::string digits = pointer.substr(begin, end - begin);
-        if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos)
-            return pointer;
-        return std::string(row.prefix) + std::to_string(std::stoul(digits) + row.by) + pointer.substr(end);
+    for (PointedArray const& array : pointedArrays(by, copy)) {
+        if (!pointer.starts_with(array.prefix)) continue;
+        isShared = array.isShared;
+        const std::optional<PointerIndex> index = indexOf(pointer, array.prefix.size());
+        if (!index) return pointer;
+        return fmt::format("{}{}{}", array.prefix, index->value + array.by,
+                           std::string_view(pointer).substr(index->end));
     }
     return pointer;
+}
+
+bool hasElement(Json const& file, std::string_view prefix, size_t index) {
+    const Json::json_pointer array(std::string(prefix, 0, prefix.size() - 1)); // without the last slash
+    return file.contains(array) && file[array].is_array() && index < file[array].size();
+}
+
+bool isPointerInside(std::string_view pointer, Json const& file) {
+    for (PointedArray const& array : pointedArrays({}, {})) {
+        if (!pointer.starts_with(array.prefix)) continue;
+        const std::optional<PointerIndex> index = indexOf(pointer, array.prefix.size());
+        return !index || hasElement(file, array.prefix, index->value);
+    }
+    return true;
 }
 
 } // namespace
@@ -92,6 +127,8 @@ Json* extensionOf(Json& value, const char* name) {
     Json* const extensions = memberOf(value, "extensions");
     return extensions ? memberOf(*extensions, name) : nullptr;
 }
+
+Json const* extensionOf(Json const& value, const char* name) { return extensionOf(const_cast<Json&>(value), name); }
 
 void shiftAccessor(Json& accessor, GltfOffsets const& by) {
     shiftMember(accessor, "bufferView", by.views);
@@ -168,6 +205,16 @@ void shiftSkin(Json& skin, GltfOffsets const& by, GltfCopyOffsets const& copy) {
 void shiftSampler(Json& sampler, GltfOffsets const& by) {
     shiftMember(sampler, "input", by.accessors);
     shiftMember(sampler, "output", by.accessors);
+}
+
+bool isChannelInside(Json const& channel, Json const& file) {
+    Json const* const target = memberOf(channel, "target");
+    if (!target) return false;
+    Json const* const node = memberOf(*target, "node");
+    if (node && node->is_number_unsigned() && !hasElement(file, "/nodes/", node->get<size_t>())) return false;
+    Json const* const extension = extensionOf(*target, "KHR_animation_pointer");
+    Json const* const pointer = extension ? memberOf(*extension, "pointer") : nullptr;
+    return !pointer || !pointer->is_string() || isPointerInside(pointer->get_ref<std::string const&>(), file);
 }
 
 bool shiftChannel(Json& channel, GltfOffsets const& by, GltfCopyOffsets const& copy, bool isFirst) {

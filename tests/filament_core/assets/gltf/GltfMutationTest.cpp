@@ -2,7 +2,7 @@
 // Real and generated files, truncated and damaged: nothing may crash, hang or break a promise. The seeds are fixed; the
 // number of rounds depends on the time, which is limited.
 #include "filament_core/assets/files/FileBytes.h"
-#include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
+#include "tests/filament_core/assets/gltf/GltfMergeFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfSpecimens.h"
 #include "tests/filament_core/assets/gltf/MeshStreamFuzzBody.h"
 
@@ -28,6 +28,22 @@ TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
     }
     EXPECT_GT(loads, runs / 20); // damage that always breaks the JSON would test nothing
     EXPECT_LT(loads, runs);
+}
+
+TEST(GltfMutation, ScratchedFilesThatLoadAreSavedWhole) {
+    const std::vector<Specimen> specimens = allSpecimens();
+    constexpr uint32_t kRounds = 200;
+    size_t saved = 0;
+    for (uint32_t round = 0; round < kRounds; ++round) {
+        for (size_t i = 0; i < specimens.size(); ++i) {
+            Specimen specimen = specimens[i];
+            if (round > 0) Scratcher(round * 3000 + static_cast<uint32_t>(i)).scratch(specimen);
+            const bool isSaved = fuzzGltfMerge(glbFrom(specimen.json, specimen.binary));
+            EXPECT_TRUE(isSaved || round > 0) << "specimen " << i << " must be saved";
+            saved += isSaved;
+        }
+    }
+    EXPECT_GT(saved, 2 * specimens.size());
 }
 
 TEST(MeshStream, OfTheCorpusIsReadAndDamageIsRefusedOrReadWhole) {
