@@ -2,7 +2,7 @@
 /// ShareCheck: whether the shares of lights and effects add up to a case's picture (--shares on). docs/conformance.md.
 ///   In      a scene and a view that can be drawn, and the same scene without its lights.
 ///   Out     what is wrong, and counts. Left out: debug views, and pixels of which a term is not finite.
-///   Why     differences add up to their last picture whatever a term shows. So the first picture, in which all light is
+///   Why     differences add up to the last frame, whatever a term shows. So the first frame, in which all light is
 ///           dark, is compared with that of a scene that has none.
 ///   Cost    a frame for each term of the picture and each explained pixel, and one without light.
 #pragma once
