@@ -8,6 +8,7 @@
 #include "filament_core/assets/tables/ToneTable.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/materials/TextureParameters.h"
+#include "filament_core/passes/DrawRecorder.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <array>
@@ -21,8 +22,9 @@ namespace {
 using namespace backend;
 
 BufferHandle createInstanceIds(Engine::Impl& engine) {
-    std::array<uint32_t, shader::kObjectsPerWindow> ids{};
-    std::iota(ids.begin(), ids.end(), 0u);
+    std::array<uint32_t, passes::kFirstPairId + shader::kObjectsPerWindow / 2> ids{};
+    std::iota(ids.begin(), ids.begin() + passes::kFirstPairId, 0u);
+    for (uint32_t pair = 0; pair < shader::kObjectsPerWindow / 2; ++pair) ids[passes::kFirstPairId + pair] = 2 * pair;
     NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
     AllOrNothing both(engine.pending);
     engine.pending.record(CmdCreateBuffer{ handle, { sizeof(ids), BufferUsage::Vertex, "instance ids" } });

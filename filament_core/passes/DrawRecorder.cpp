@@ -40,6 +40,11 @@ public:
         bindGeometry(*draw.geometry);
     }
 
+    /// Into the instance ids.
+    uint32_t firstInstance(DrawCall const& draw) const {
+        const uint32_t record = draw.firstObject % shader::kObjectsPerWindow;
+        return mContext.hasPairs ? kFirstPairId + record / 2 : record;
+    }
     bool hasField(DrawCall const& draw) const { return mContext.readsFields && draw.firstField != prepare::kNowhere; }
     /// Of the nth object of a draw that has one.
     void bindField(DrawCall const& draw, uint32_t nth) {
@@ -201,7 +206,7 @@ void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<
             continue;
         }
         commands.record(CmdDrawIndexed{ draw.geometry->indexCount, draw.instanceCount, draw.geometry->firstIndex, 0,
-                                        draw.firstObject % shader::kObjectsPerWindow });
+                                        state.firstInstance(draw) });
     }
 }
 

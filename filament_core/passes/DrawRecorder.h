@@ -21,6 +21,10 @@ namespace filament_core::passes {
 /// About 10 us of recording: enough to make waking a thread for a range worthwhile.
 inline constexpr size_t kDrawsPerRange = 1024;
 
+/// The instance ids of all draws: 0, 1, 2, ... kObjectsPerWindow - 1, where an object has one record; then 0, 2, 4, ...
+/// kObjectsPerWindow - 2, the first records of objects with two.
+inline constexpr uint32_t kFirstPairId = shader::kObjectsPerWindow;
+
 /// Parallel to `draws`; none if a draw has no pipeline. Call in `beforePass`: missing pipelines are recorded into its
 /// commands, in drawing order; for a frame that is only expected all are none. Looks up in ranges, on the job system if
 /// there is one.
@@ -45,6 +49,7 @@ struct DrawContext {
     TextureFilter textureFilter = TextureFilter::AsAuthored;
     prepare::ChannelLists channels{}; ///< of the view; its lists are in `view`
     bool readsFields = false;         ///< irradiance fields: draws that have one are drawn object by object
+    bool hasPairs = false;            ///< ObjectList::hasLastFrames
 };
 
 /// One range, starting with nothing bound. Draws without a pipeline are skipped.

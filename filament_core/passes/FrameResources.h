@@ -42,7 +42,7 @@ struct FrameResources {
     backend::TextureHandle white{};                  ///< 2D, of one opaque white texel
     backend::BufferHandle noFogCells;                ///< storage, of one float4: where no fog is lit
     backend::BufferHandle lastFogLight, fogLight;    ///< storage: FogHistory; noFogCells without
-    backend::BufferHandle instanceIds;               ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
+    backend::BufferHandle instanceIds;               ///< vertices; see kFirstPairId (DrawRecorder.h)
     scene::MaterialInstance const* motion = nullptr; ///< draws motion; null: none is asked for
     /// Leave depths of levels of detail that fade, by their front faces and by both; null: none fades.
     std::array<scene::MaterialInstance const*, 2> levelFade{};

@@ -32,8 +32,9 @@ std::span<const DrawCall> drawsOf(FrameContext const& context) {
 
 void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, context.packet.motionView);
-    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
-                             context.settings().quality.textureFilter };
+    DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
+                       context.settings().quality.textureFilter };
+    draws.hasPairs = true;
     recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
 }
 

@@ -50,7 +50,7 @@ uint32_t cascadesOf(ShadowPacket const& shadows) {
 }
 
 uint32_t movedObjects(FramePacket const& packet) {
-    return packet.motionView == kNowhere ? 0 : static_cast<uint32_t>(packet.views[packet.motionView].opaque.size());
+    return packet.motionView == kNowhere ? 0 : packet.views[packet.motionView].counts.visible;
 }
 
 SceneDemand demandOf(scene::SceneData const& scene, FramePacket const& packet, ShadowCounts const& shadows,

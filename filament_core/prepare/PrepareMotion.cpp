@@ -51,7 +51,7 @@ bool hasMoved(Moment const& moment, DrawCall const& draw, uint32_t deformation, 
     return !isEqual(now, last) || (isDeformed && !isDeformedAlike(moment.scene, deformation, *deformed));
 }
 
-/// Two records an object, so one object a draw.
+/// Two records an object. What shares a draw in the image shares one here, too.
 class MotionList {
 public:
     MotionList(Arena& arena, size_t most, bool deforms)
@@ -61,34 +61,46 @@ public:
               mDeformations(arena.arrayForOverwrite<uint32_t>(deforms ? most * 2 : 0)) {}
 
     /// `deformation`: of this object of the draw.
-    void add(DrawCall draw, uint32_t deformation, Placement const& now, Placement const& last) {
+    void add(DrawCall const& of, uint32_t deformation, Placement const& now, Placement const& last) {
         const auto at = static_cast<uint32_t>(mCount * 2);
         mPlacements[at] = now;
         mPlacements[at + 1] = last;
         for (const uint32_t record : { at, at + 1 }) mOrder[record] = { .renderable = record };
-        draw.fade = 0; // wherever either level is seen, it has the depth that is known
-        draw.firstObject = at;
-        draw.instanceCount = 1;
-        draw.deformation = deformation;
-        mDraws[mCount++] = draw;
+        addTo(of, deformation, at);
+        ++mCount;
         if (mDeformations.empty()) return;
         mDeformations[at] = mDeformations[at + 1] = deformation;
         if (deformation != scene::kNotDeformed) mSlots[mDeformed++] = deformation;
     }
 
-    std::span<const DrawCall> draws() const { return mDraws.first(mCount); }
+    std::span<const DrawCall> draws() const { return mDraws.first(mDrawCount); }
+    uint32_t count() const { return static_cast<uint32_t>(mCount); }
     std::span<const uint32_t> slots() const { return mSlots.first(mDeformed); }
     ObjectList objects(double3 const& camera) const {
         return { mOrder.first(mCount * 2), mPlacements, camera, mDeformations, {}, true };
     }
 
 private:
+    void addTo(DrawCall const& of, uint32_t deformation, uint32_t at) {
+        if (mLast == &of && at % shader::kObjectsPerWindow != 0) {
+            ++mDraws[mDrawCount - 1].instanceCount;
+            return;
+        }
+        mLast = &of;
+        DrawCall& draw = mDraws[mDrawCount++] = of;
+        draw.fade = 0; // wherever either level is seen, it has the depth that is known
+        draw.firstObject = at;
+        draw.instanceCount = 1;
+        draw.deformation = deformation;
+    }
+
     std::span<DrawCall> mDraws;
     std::span<SortItem> mOrder;
     std::span<Placement> mPlacements;
     std::span<uint32_t> mSlots;
     std::span<uint32_t> mDeformations; // by record
-    size_t mCount = 0, mDeformed = 0;
+    DrawCall const* mLast = nullptr;   // of the image: what the last of mDraws is made of
+    size_t mCount = 0, mDrawCount = 0, mDeformed = 0;
 };
 static_assert(shader::kObjectsPerWindow % 2 == 0, "both records of an object lie in one window");
 
@@ -119,7 +131,7 @@ PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPa
     prepared.view.uniforms = main.uniforms;
     prepared.view.opaque = moved.draws();
     prepared.view.objects = moved.objects(main.objects.cameraWorld);
-    prepared.view.counts.visible = static_cast<uint32_t>(moved.draws().size());
+    prepared.view.counts.visible = moved.count();
     return prepared;
 }
 

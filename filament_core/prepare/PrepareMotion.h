@@ -2,9 +2,9 @@
 /// prepareMotion: which opaque objects in view did not stay where they were, so that the motion of the camera alone
 /// does not give their motion vectors.
 ///   In      the main view, and the previous frame.
-///   Out     a view of kind Motion: a draw for each of these objects, with two records: now, and the frame before. And
-///           what moves them: transform, skin, morph targets, a vertex block that reads the time, a place in the view
-///           of a camera that moved.
+///   Out     a view of kind Motion: these objects, each with two records: now, and the frame before. Those of one draw
+///           of the image are instances here. What moves them: transform, skin, morph targets, a vertex block that
+///           reads the time, a place in the view of a camera that moved.
 ///   Thread  the app thread.   Memory: the arena.   Bits: the order of the main view.   Fails: std::bad_alloc.
 #pragma once
 

@@ -115,6 +115,24 @@ TEST(DrawRecorder, ARangeDoesNotDependOnTheOneBeforeIt) {
     EXPECT_EQ(hashStream(whole.view()), hashStream(first.view()));
 }
 
+// Of two records an object, instances read every second one.
+TEST(DrawRecorder, PairsOfRecordsHaveInstanceIdsOfTheirOwn) {
+    DrawFixture fixture(1, 1, 1);
+    fixture.context.hasPairs = true;
+    std::vector<DrawCall> draws{ fixture.draw(0, 0, 0), fixture.draw(0, 0, 6), fixture.draw(0, 0, 256 + 250) };
+    draws[1].instanceCount = 122;
+    CommandBuffer setup, commands;
+    const std::vector<PipelineHandle> pipelines = fixture.choose(draws, setup);
+    recordDraws(commands, fixture.context, draws, pipelines);
+    const BindingDevice device = runOn(commands);
+    ASSERT_EQ(device.draws.size(), 3u);
+    EXPECT_EQ(device.draws[0].first.firstInstance, kFirstPairId);
+    EXPECT_EQ(device.draws[1].first.firstInstance, kFirstPairId + 3);
+    EXPECT_EQ(device.draws[1].first.instanceCount, 122u);
+    EXPECT_EQ(device.draws[2].first.firstInstance, kFirstPairId + 125);
+    EXPECT_EQ(device.viewBinds, 2u);
+}
+
 TEST(DrawRecorder, DrawsWithoutAPipelineAreSkippedWithTheirState) {
     DrawFixture fixture(2, 2, 2);
     const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0), fixture.draw(1, 1, 1), fixture.draw(0, 0, 2) };

@@ -54,15 +54,18 @@ TEST_F(MotionTest, RecordsArePairsOfNowAndThen) {
             expected.insert(i);
         }
         const FramePacket packet = frame();
-        ASSERT_EQ(moved(packet).size(), expected.size());
         EXPECT_EQ(packet.demand.of(Effect::Motion).count, expected.size());
         ObjectList const& objects = packet.views[packet.motionView].objects;
         ASSERT_EQ(objects.size(), 2 * expected.size());
+        uint32_t next = 0;
         for (DrawCall const& draw : moved(packet)) {
-            EXPECT_EQ(draw.instanceCount, 1u);
-            EXPECT_EQ(draw.firstObject % 2, 0u);
-            scene::Placement const& now = objects.placements[objects.order[draw.firstObject].renderable];
-            scene::Placement const& then = objects.placements[objects.order[draw.firstObject + 1].renderable];
+            EXPECT_EQ(draw.firstObject, next) << "draws lie one after the other";
+            next += 2 * draw.instanceCount;
+        }
+        EXPECT_EQ(next, objects.size());
+        for (uint32_t record = 0; record < next; record += 2) {
+            scene::Placement const& now = objects.placements[objects.order[record].renderable];
+            scene::Placement const& then = objects.placements[objects.order[record + 1].renderable];
             const auto isNow = [&](uint32_t i) {
                 return std::memcmp(&scene.renderables.placement[i], &now, sizeof(now)) == 0;
             };
@@ -72,6 +75,25 @@ TEST_F(MotionTest, RecordsArePairsOfNowAndThen) {
             expected.erase(found);
         }
     }
+}
+
+// Both records of an object lie in one window, and so do all instances of a draw.
+TEST_F(MotionTest, WhatSharesADrawInTheImageSharesOneHereWithinWindows) {
+    scene::MaterialInstance* const look = material();
+    view = cubeView(400);
+    for (int i = 0; i < 400; ++i) add(double3(0.01 * (i % 20), 0.01 * (i / 20), 0), look);
+    (void)frame();
+    for (uint32_t i = 0; i < 400; ++i) {
+        if (i % 3) setTransform(scene, scene.renderables.index.handleAt(i), placeAt({ 0.01 * i, 0, 0.001 * i }));
+    }
+    const FramePacket packet = frame();
+    uint32_t objects = 0;
+    for (DrawCall const& draw : moved(packet)) {
+        EXPECT_EQ(draw.firstObject / 256, (draw.firstObject + 2 * draw.instanceCount - 1) / 256);
+        objects += draw.instanceCount;
+    }
+    EXPECT_EQ(objects, 266u);
+    EXPECT_LE(moved(packet).size(), packet.mainView().opaque.size() + 3) << "the windows hold 128 objects";
 }
 
 TEST_F(MotionTest, WhatWasNotThereHasNone) {
