@@ -57,8 +57,10 @@ void checkRange(FrameGraph const& graph, Pass const& pass, Access const& access)
     backend::TextureRange const& range = access.range;
     const bool isThere = exists(range, desc.levels, desc.layers);
     if (isAttachment(access.kind)) {
-        require(isThere, "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached",
-                pass.name, desc.name, desc.levels, desc.layers, range.level, range.layer);
+        const uint32_t slices = backend::layersOfLevel({ .type = desc.type, .layers = desc.layers }, range.level);
+        require(isThere && range.layer < slices,
+                "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached", pass.name,
+                desc.name, desc.levels, slices, range.level, range.layer);
     } else {
         require(isThere, "pass '{}': texture '{}' has {} levels and {} layers; declared are {} from {} and {} from {}",
                 pass.name, desc.name, desc.levels, desc.layers, range.levelCount, range.level, range.layerCount,

@@ -76,7 +76,8 @@ void clearHistory(CommandBuffer& commands, Texture const& texture, TextureHandle
     (isDepth ? pass.layout.depthFormat : pass.layout.colorFormats[0]) = desc.format;
     pass.debugName = desc.name;
     for (uint8_t level = 0; level < desc.levels; ++level) {
-        for (uint16_t layer = 0; layer < desc.layers; ++layer) {
+        const uint32_t layers = layersOfLevel({ .type = desc.type, .layers = desc.layers }, level);
+        for (uint16_t layer = 0; layer < layers; ++layer) {
             attachment = { .texture = handle, .level = level, .layer = layer, .clear = texture.clear };
             pass.area = { 0, 0, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
             AllOrNothing wholePass(commands);

@@ -81,8 +81,8 @@ constexpr bool has(TextureUsage set, TextureUsage bit) {
 }
 
 struct DeviceTextureDesc {
-    /// Texture3D: uncompressed, and neither attachment nor blitted: its texels are uploaded. What commands call layers
-    /// are its slices; deeper levels have fewer.
+    /// Texture3D: uncompressed colours, not blitted: its texels are uploaded or drawn, one slice a pass. What commands
+    /// call layers are its slices; deeper levels have fewer.
     TextureKind type = TextureKind::Texture2D;
     Format format = Format::RGBA8;
     TextureUsage usage = TextureUsage::Sampled;

@@ -84,8 +84,11 @@ void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
     if (is3D) {
         require(desc.layers <= maxSize, Harm::Crash,
                 "{} slices; this device has at most {} (DeviceLimits::max3DTextureSize)", desc.layers, maxSize);
-        require(!isCompressed(desc.format) && !hasDepth(desc.format) && !has(desc.usage, kAttachmentUsage), Harm::Crash,
-                "a 3D texture is uncompressed, without depth formats, and no attachment; upload its texels");
+        require(!isCompressed(desc.format) && !hasDepth(desc.format), Harm::Crash,
+                "a 3D texture is uncompressed, and has no depth format; {} is for other kinds",
+                formatInfo(desc.format).name);
+        require(!has(desc.usage, TextureUsage::InputAttachment | TextureUsage::Transient), Harm::Crash,
+                "a 3D texture is no input attachment, and not transient; sample it in a later pass");
     }
     const uint32_t full = fullMipCount(desc);
     require(desc.levels >= 1 && desc.levels <= full, Harm::Crash, "{} levels; {} x {} has 1..{}", desc.levels,

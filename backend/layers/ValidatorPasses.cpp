@@ -90,9 +90,11 @@ Validator::TextureModel const* Validator::checkAttachment(Attachment const& atta
     TextureModel const* texture = need(mTextures, attachment.texture, role);
     if (!texture) return nullptr;
     DeviceTextureDesc const& desc = texture->desc;
-    const bool exists = require(attachment.level < desc.levels && attachment.layer < desc.layers, Harm::Crash,
-                                "{} '{}': level {} of {}, layer {} of {}", role, texture->name, attachment.level,
-                                desc.levels, attachment.layer, desc.layers);
+    const uint32_t layers = layersOfLevel(desc, attachment.level);
+    const bool exists =
+            require(attachment.level < desc.levels && attachment.layer < layers, Harm::Crash,
+                    "{} '{}': level {} of {}, {} {} of {}", role, texture->name, attachment.level, desc.levels,
+                    desc.type == TextureKind::Texture3D ? "slice" : "layer", attachment.layer, layers);
     if (!exists) return nullptr;
     require(covers(desc, attachment.level, area), Harm::Crash, "{} '{}' is smaller than the area {},{} {} x {}", role,
             texture->name, area.x, area.y, area.width, area.height);
@@ -181,6 +183,11 @@ void Validator::checkAttachedOnce(PassDesc const& desc) {
             Attachment const& b = desc.colors[j];
             require(a.texture != b.texture || a.level != b.level || a.layer != b.layer, Harm::Crash,
                     "colours {} and {} are the same image", i, j);
+            TextureModel const* texture = mTextures.find(a.texture);
+            const bool is3D = texture && texture->desc.type == TextureKind::Texture3D;
+            require(!is3D || a.texture != b.texture || a.level != b.level || a.layer == b.layer, Harm::Crash,
+                    "colours {} and {} are slices of one level of 3D texture '{}'; a pass draws to one of them", i, j,
+                    is3D ? texture->name : std::string());
         }
     }
 }

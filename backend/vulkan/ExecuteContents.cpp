@@ -11,8 +11,9 @@ namespace {
 
 /// Of a texture's subresources: those of all slices are one.
 SubresourceRange layersOf(Texture const& texture, uint32_t level, uint32_t layer, uint32_t layerCount) {
-    if (texture.is3D()) return { level, 1, 0, 1 };
-    return { level, 1, layer, layerCount };
+    SubresourceRange range = texture.part(level, layer);
+    if (!texture.is3D()) range.layerCount = layerCount;
+    return range;
 }
 
 /// Of a 3D texture.

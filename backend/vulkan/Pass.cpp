@@ -6,7 +6,10 @@
 namespace filament_core::backend::vulkan {
 namespace {
 
-Contents contentsFor(LoadOp load) { return load == LoadOp::Load ? Contents::Keep : Contents::Discard; }
+/// The other slices of a level share its layout, and keep what they hold.
+Contents contentsFor(LoadOp load, Texture const& texture) {
+    return load == LoadOp::Load || texture.is3D() ? Contents::Keep : Contents::Discard;
+}
 
 VkClearValue clearColor(Attachment const& attachment, Format format) {
     VkClearValue value{};
@@ -64,27 +67,28 @@ bool Pass::collect(PassDesc const& desc, FramebufferKey& key) {
     key.width = static_cast<uint32_t>(desc.area.x) + desc.area.width;
     key.height = static_cast<uint32_t>(desc.area.y) + desc.area.height;
     for (uint32_t i = 0; i < desc.layout.colorCount; ++i) {
-        mColors[i] = mTextures.find(desc.colors[i].texture);
-        mColorRanges[i] = { desc.colors[i].level, 1, desc.colors[i].layer, 1 };
-        if (!add(mColors[i], mColorRanges[i], key)) return false;
+        Attachment const& color = desc.colors[i];
+        mColors[i] = mTextures.find(color.texture);
+        if (!add(mColors[i], color.level, color.layer, key)) return false;
+        mColorRanges[i] = mColors[i]->part(color.level, color.layer);
     }
     if (desc.layout.depthFormat != Format::None) {
         mDepth = mTextures.find(desc.depth.texture);
-        mDepthRange = { desc.depth.level, 1, desc.depth.layer, 1 };
-        if (!add(mDepth, mDepthRange, key)) return false;
+        if (!add(mDepth, desc.depth.level, desc.depth.layer, key)) return false;
+        mDepthRange = mDepth->part(desc.depth.level, desc.depth.layer);
     }
     for (uint32_t i = 0; i < desc.layout.colorCount; ++i) {
         if ((desc.layout.resolveMask >> i & 1) == 0) continue;
         mResolves[i] = mTextures.find(desc.colors[i].resolve);
-        if (!add(mResolves[i], {}, key)) return false;
+        if (!add(mResolves[i], 0, 0, key)) return false;
     }
     if (!mLayout.resolvesDepth) return true;
     mDepthResolve = mTextures.find(desc.depth.resolve);
-    return add(mDepthResolve, {}, key);
+    return add(mDepthResolve, 0, 0, key);
 }
 
-bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& key) {
-    const VkImageView view = texture ? texture->attachmentView(range.level, range.layer) : VK_NULL_HANDLE;
+bool Pass::add(Texture* texture, uint32_t level, uint32_t layer, FramebufferKey& key) {
+    const VkImageView view = texture ? texture->attachmentView(level, layer) : VK_NULL_HANDLE;
     if (view == VK_NULL_HANDLE) return false;
     key.views[key.viewCount++] = view;
     return true;
@@ -93,11 +97,11 @@ bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& 
 void Pass::prepareAttachments(PassDesc const& desc) {
     for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
         const Use first = firstColorUse(mLayout, i);
-        mBarriers.attach(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
+        mBarriers.attach(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load, *mColors[i]));
         if (mResolves[i]) mBarriers.attach(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
     }
     if (mDepthResolve) mBarriers.attach(*mDepthResolve, {}, Use::DepthResolve, Contents::Discard);
-    if (mDepth) mBarriers.attach(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
+    if (mDepth) mBarriers.attach(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load, *mDepth));
 }
 
 void Pass::leaveAttachments() {

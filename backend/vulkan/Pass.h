@@ -32,7 +32,7 @@ public:
 
 private:
     bool collect(PassDesc const& desc, FramebufferKey& key);
-    bool add(Texture* texture, SubresourceRange const& range, FramebufferKey& key);
+    bool add(Texture* texture, uint32_t level, uint32_t layer, FramebufferKey& key);
     void prepareAttachments(PassDesc const& desc);
     void leaveAttachments();
     void recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFramebuffer framebuffer,

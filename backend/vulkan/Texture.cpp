@@ -36,6 +36,8 @@ VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     info.flags = isCube(desc.type) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     if (hasTwoFormats(desc)) info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     const bool is3D = desc.type == TextureKind::Texture3D;
+    // Passes attach slices by 2D views, of which an image says that it will have them (Vulkan 1.1, 12.3 and 12.5).
+    if (is3D && has(desc.usage, TextureUsage::ColorAttachment)) info.flags |= VK_IMAGE_CREATE_2D_ARRAY_COMPATIBLE_BIT;
     info.imageType = is3D ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
     info.format = native(desc.format);
     info.extent = { desc.width, desc.height, is3D ? desc.layers : 1u };

@@ -90,6 +90,17 @@ TEST_F(GraphRulesDeathTest, AttachingALevelThatDoesNotExist) {
     EXPECT_DEATH(checkDeclarations(graph), "texture 'a' has 1 levels and 1 layers; level 1, layer 0 is attached");
 }
 
+TEST_F(GraphRulesDeathTest, AttachingASliceThatTheLevelLacks) {
+    const TextureId volume = graph.createTexture({ .width = 8,
+                                                   .height = 8,
+                                                   .levels = 2,
+                                                   .layers = 4,
+                                                   .type = backend::TextureKind::Texture3D,
+                                                   .name = "v" });
+    pass("draw", [&](PassBuilder& p) { p.writeColor(0, volume, { .level = 1, .layer = 2 }); });
+    EXPECT_DEATH(checkDeclarations(graph), "texture 'v' has 2 levels and 2 layers; level 1, layer 2 is attached");
+}
+
 TEST_F(GraphRulesDeathTest, SamplingAnAttachment) {
     const TextureId a = color("a");
     pass("write", [&](PassBuilder& p) { p.writeColor(0, a); });

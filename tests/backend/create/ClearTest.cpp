@@ -113,6 +113,40 @@ DRIVER_TEST(Clear, OneLevelAndLayerOfATextureIsClearedAndNoOther) {
     }
 }
 
+DRIVER_TEST(Clear, OneSliceOfALevelIsClearedAndNoOther) {
+    using enum TextureUsage;
+    for (const Format format : { Format::RGBA8, Format::RGBA8Srgb }) {
+        const TextureHandle volume = gpu.texture({ .type = TextureKind::Texture3D,
+                                                   .format = format,
+                                                   .usage = ColorAttachment | Sampled | TransferSource,
+                                                   .levels = 3,
+                                                   .layers = 6,
+                                                   .width = 8,
+                                                   .height = 4 });
+        const auto clear = [&](uint8_t level, uint16_t slice, float value) {
+            PassDesc pass = passOver({ { volume, format } }, 8u >> level, 4u >> level);
+            pass.colors[0] = {
+                .texture = volume, .level = level, .layer = slice, .clear = { value, value, value, value }
+            };
+            clearOnly(gpu, pass);
+        };
+        constexpr std::array<uint16_t, 3> kSlices{ 6, 3, 1 };
+        for (uint8_t level = 0; level < 3; ++level) {
+            for (uint16_t slice = 0; slice < kSlices[level]; ++slice) clear(level, slice, 0);
+        }
+        clear(1, 2, 1);
+        clear(0, 4, 1);
+        for (uint8_t level = 0; level < 3; ++level) {
+            for (uint16_t slice = 0; slice < kSlices[level]; ++slice) {
+                const bool isWhite = (level == 1 && slice == 2) || (level == 0 && slice == 4);
+                EXPECT_THAT(gpu.readAs<uint32_t>(volume, { 0, 0, 8u >> level, 4u >> level }, level, slice),
+                            Each(isWhite ? 0xFFFFFFFFu : 0u))
+                        << int{ level } << ", " << slice;
+            }
+        }
+    }
+}
+
 DRIVER_TEST(Clear, EveryAttachmentHasItsOwnClearValue) {
     const TextureHandle a = gpu.target(Format::RGBA8, 2, 2), b = gpu.target(Format::R32UI, 2, 2),
                         c = gpu.target(Format::R32F, 2, 2), d = gpu.target(Format::D32F, 2, 2);

@@ -301,6 +301,56 @@ DRIVER_TEST(Texture, AnArrayOfCubesIsSelectedByTheFourthCoordinate) {
     EXPECT_EQ(firsts(seen), (std::vector<float>{ 0, 5, 6, 42, 14, 114 }));
 }
 
+// Half of the slices are drawn, in no order; two are uploaded before and one after that.
+DRIVER_TEST(Texture, SlicesOfA3DTextureAreDrawnApartAndSampledTogether) {
+    using enum TextureUsage;
+    const TextureHandle texture = gpu.texture({ .type = TextureKind::Texture3D,
+                                                .format = Format::R32F,
+                                                .usage = Sampled | ColorAttachment | TransferTarget | TransferSource,
+                                                .levels = 2,
+                                                .layers = 6,
+                                                .width = 4,
+                                                .height = 2 });
+    const auto upload = [&](uint8_t level, uint16_t slice, float value) {
+        const uint32_t width = 4u >> level, height = 2u >> level;
+        gpu.upload(texture, { 0, 0, width, height }, bytesOf(std::vector<float>(size_t{ width } * height, value)),
+                   level, slice, 1);
+    };
+    const Program program =
+            gpu.program(kFullScreenVertex,
+                        fragmentOf("", "result = vec4(floor(gl_FragCoord.x) + 10.0 * floor(gl_FragCoord.y) + 7.0);"));
+    const auto draw = [&](uint8_t level, uint16_t slice, float cleared) {
+        PassDesc pass = passOver({ { texture, Format::R32F } }, 4u >> level, 2u >> level);
+        pass.colors[0] = { .texture = texture, .level = level, .layer = slice, .clear = { cleared, 0, 0, 0 } };
+        gpu.record(CmdBeginPass{ pass });
+        gpu.record(CmdEndPass{});
+        pass.colors[0].load = LoadOp::Load; // all columns but the first, over what the slice holds
+        pass.area.x = 1, pass.area.width -= 1;
+        const PipelineHandle pipeline = gpu.pipeline(pipelineFor(program, pass.layout));
+        gpu.record(CmdBeginPass{ pass });
+        gpu.record(CmdBindPipeline{ pipeline });
+        gpu.record(CmdDraw{ .vertexCount = 3 });
+        gpu.record(CmdEndPass{});
+    };
+    upload(0, 1, 1000), upload(1, 2, 2000);
+    draw(0, 5, 500), draw(1, 0, 3000), draw(0, 0, 100), draw(0, 2, 200), draw(1, 1, 4000), draw(0, 3, 300);
+    upload(0, 4, 400);
+    const std::vector<Rgba> seen = paintRow(gpu, 54, "layout(set = 1, binding = 0) uniform highp sampler3D image;",
+                                            R"(float slice = floor(i / 8.0), texel = mod(i, 8.0);
+        result = i < 48.0 ? texelFetch(image, ivec3(mod(texel, 4.0), texel / 4.0, slice), 0)
+                          : texelFetch(image, ivec3(mod(i, 2.0), 0, (i - 48.0) / 2.0), 1);)",
+                                            texture, gpu.sampler({ .mipFilter = MipFilter::Nearest }));
+    for (uint32_t i = 0; i < 48; ++i) {
+        const uint32_t slice = i / 8, column = i % 4, row = i % 8 / 4;
+        const std::array<float, 6> bases{ 100, 1000, 200, 300, 400, 500 };
+        const bool isDrawn = slice != 1 && slice != 4 && column > 0;
+        EXPECT_EQ(seen[i][0], isDrawn ? static_cast<float>(column + 10 * row + 7) : bases[slice]) << i;
+    }
+    const std::vector<float> smaller{ 3000, 8, 4000, 8, 2000, 2000 };
+    for (uint32_t i = 0; i < 6; ++i) EXPECT_EQ(seen[48 + i][0], smaller[i]) << i;
+    EXPECT_EQ(gpu.readAs<float>(texture, { 0, 0, 4, 2 }, 0, 3), (std::vector<float>{ 300, 8, 9, 10, 300, 18, 19, 20 }));
+}
+
 DRIVER_TEST(Texture, SlicesOfA3DTextureAreUploadedApartAndFilteredTogether) {
     using enum TextureUsage;
     const TextureHandle texture = gpu.texture({ .type = TextureKind::Texture3D,

@@ -178,6 +178,14 @@ CmdCreateTexture textureWith(std::function<void(DeviceTextureDesc&)> const& chan
     return command;
 }
 
+/// Of four slices, as texture 20.
+void recordVolume(CommandBuffer& to) {
+    to.record(textureWith([](auto& d) {
+        d.type = TextureKind::Texture3D, d.layers = 4, d.levels = 2;
+        d.usage = TextureUsage::Sampled | TextureUsage::ColorAttachment;
+    }));
+}
+
 void recordPassWith(CommandBuffer& to, std::function<void(PassDesc&)> const& change) {
     PassDesc desc = passDesc();
     change(desc);
@@ -281,14 +289,22 @@ std::vector<Case> objectCases() {
         { "SlicesBeyondTheLimit",
           [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureKind::Texture3D, d.layers = 9'999; })); },
           "max3DTextureSize" },
-        { "AttachmentOf3D",
+        { "InputAttachmentOf3D",
           [](C& to) {
               to.record(textureWith([](auto& d) {
                   d.type = TextureKind::Texture3D, d.layers = 2;
-                  d.usage = TextureUsage::Sampled | TextureUsage::ColorAttachment;
+                  d.usage = TextureUsage::InputAttachment | TextureUsage::ColorAttachment;
               }));
           },
-          "a 3D texture is uncompressed" },
+          "a 3D texture is no input attachment" },
+        { "DepthOf3D",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.type = TextureKind::Texture3D, d.layers = 2, d.format = Format::D32F;
+                  d.usage = TextureUsage::DepthAttachment;
+              }));
+          },
+          "a 3D texture is uncompressed, and has no depth format; D32F is for other kinds" },
         { "CompressedSlices",
           [](C& to) {
               to.record(textureWith([](auto& d) {
@@ -590,6 +606,25 @@ std::vector<Case> passCases() {
                           d.colors[0].texture = kImage, d.area = { 0, 0, 8, 8 };
                       }); },
           "'image' lacks TextureUsage::ColorAttachment" },
+        { "SliceThatTheLevelLacks",
+          [](C& to) {
+              recordVolume(to);
+              recordPassWith(to, [](auto& d) {
+                  d.colors[0] = { .texture = TextureHandle::make(20, 1), .level = 1, .layer = 2 };
+                  d.layout.depthFormat = Format::None, d.depth = {}, d.area = { 0, 0, 4, 4 };
+              });
+          },
+          "level 1 of 2, slice 2 of 2" },
+        { "TwoSlicesOfOneLevel",
+          [](C& to) {
+              recordVolume(to);
+              recordPassWith(to, [](auto& d) {
+                  d.layout.colorCount = 2, d.layout.colorFormats[1] = d.layout.colorFormats[0];
+                  for (uint16_t i = 0; i < 2; ++i) d.colors[i] = { .texture = TextureHandle::make(20, 1), .layer = i };
+                  d.layout.depthFormat = Format::None, d.depth = {}, d.area = { 0, 0, 8, 8 };
+              });
+          },
+          "colours 0 and 1 are slices of one level of 3D texture" },
         { "AttachmentLevelMissing", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].level = 1; }); },
           "level 1 of 1" },
         { "DepthOfOtherFormat", [](C& to) { recordPassWith(to, [](auto& d) { d.layout.depthFormat = Format::D16; }); },
