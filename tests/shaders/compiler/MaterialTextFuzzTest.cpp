@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays the fuzzer's corpus of material texts in tests/fuzz/corpus, and edits of it, without clang.
+#include "tests/fuzz/EditedText.h"
 #include "tests/shaders/compiler/MaterialTextFuzzBody.h"
 #include "toolkit/paths/Paths.h"
 
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -45,21 +45,9 @@ TEST(MaterialText, SurvivesEditsAnywhere) {
     constexpr std::string_view kMarks = "{}[]:,\"'\n#/*-.0aZ\\";
     size_t accepted = 0;
     for (int round = 0; round < 5000; ++round) {
-        std::string text = texts[random() % texts.size()];
-        for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
-            const size_t at = random() % text.size();
-            switch (random() % 3) {
-            case 0:
-                text[at] = kMarks[random() % kMarks.size()];
-                break;
-            case 1:
-                text.erase(at, 1 + random() % 8);
-                break;
-            default:
-                text.insert(at, texts[random() % texts.size()].substr(0, random() % 40));
-                break;
-            }
-        }
+        std::string text = test::editedText(texts[random() % texts.size()], random, kMarks);
+        if (random() % 4 == 0)
+            text.insert(random() % (text.size() + 1), texts[random() % texts.size()].substr(0, random() % 40));
         accepted += test::fuzzMaterialText(text);
     }
     EXPECT_GT(accepted, 0u);

@@ -1,40 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of the files of a real saved frame, without clang and without a device.
+#include "tests/fuzz/EditedText.h"
 #include "tests/fuzz/FrameFuzzBody.h"
 #include "tests/toolkit/record/SmallScene.h"
-
-#include <random>
 
 namespace filament_core {
 namespace {
 
 using test::FrameFolder;
-
-std::string editedBytes(std::string text, std::mt19937& random) {
-    constexpr std::string_view kMarks = "{}[]:,\"\\-0e9. ntf=@+|\n";
-    for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
-        const size_t at = random() % text.size();
-        switch (random() % 5) {
-        case 0:
-            text[at] = kMarks[random() % kMarks.size()];
-            break;
-        case 1:
-            text.erase(at, 1 + random() % 12);
-            break;
-        case 2:
-            text.insert(at, text.substr(random() % text.size(), random() % 24));
-            break;
-        case 3: { // a line less: objects that were never created
-            const size_t begin = text.rfind('\n', at);
-            if (begin != std::string::npos) text.erase(begin, text.find('\n', begin + 1) - begin);
-            break;
-        }
-        default:
-            if (random() % 4 == 0) text.resize(at);
-        }
-    }
-    return text;
-}
 
 class FrameFiles : public ::testing::Test {
 protected:
@@ -59,11 +32,11 @@ TEST_F(FrameFiles, AreReadAsTheyStand) {
 TEST_F(FrameFiles, SurviveEditsAnywhere) {
     std::mt19937 random(20261126);
     size_t refused = 0;
-    for (int round = 0; round < 1500; ++round) refused += !test::fuzzManifest(editedBytes(mManifest, random));
+    for (int round = 0; round < 1500; ++round) refused += !test::fuzzManifest(test::editedText(mManifest, random));
     EXPECT_GT(refused, 500u);
     size_t accepted = 0;
     for (int round = 0; round < 150; ++round)
-        accepted += test::fuzzFrameTrace(editedBytes(mText, random) + '\0' + mPayload);
+        accepted += test::fuzzFrameTrace(test::editedText(mText, random) + '\0' + mPayload);
     EXPECT_GT(accepted, 10u); // lines that are missing are no error of the text; the validator judges them
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays edits of the tools' own files, without clang: each gives contents or an error of one line.
+#include "tests/fuzz/EditedText.h"
 #include "tests/fuzz/ToolFilesFuzzBody.h"
 #include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <vector>
 
 namespace filament_core {
@@ -53,27 +53,6 @@ std::vector<Sample> samples() {
                "// show: mesh=torus tint=1,0.5,0.2 map=brick/color slab=true instances=3\nmaterial {}" } };
 }
 
-std::string edited(std::string text, std::mt19937& random) {
-    constexpr std::string_view kMarks = "{}[]:,\"\\-0e9. ntf";
-    for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
-        const size_t at = random() % text.size();
-        switch (random() % 4) {
-        case 0:
-            text[at] = kMarks[random() % kMarks.size()];
-            break;
-        case 1:
-            text.erase(at, 1 + random() % 12);
-            break;
-        case 2:
-            text.insert(at, text.substr(random() % text.size(), random() % 24));
-            break;
-        default:
-            text.resize(at);
-        }
-    }
-    return text;
-}
-
 TEST(ToolFiles, AreReadAsTheyStand) {
     for (Sample const& sample : samples()) {
         if (sample.kind == ToolFile::Baselines || sample.kind == ToolFile::Journal) continue; // made up above
@@ -87,7 +66,7 @@ TEST(ToolFiles, SurviveEditsAnywhere) {
     const std::vector<Sample> originals = samples();
     for (int round = 0; round < 2000; ++round) {
         Sample const& sample = originals[round % originals.size()];
-        refused += !fuzzToolFile(sample.kind, edited(sample.text, random));
+        refused += !fuzzToolFile(sample.kind, test::editedText(sample.text, random));
     }
     EXPECT_GT(refused, 500u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays edits of a document, without clang.
 #include "tests/fuzz/DocumentFuzzBody.h"
+#include "tests/fuzz/EditedText.h"
 #include "tests/fuzz/TextFormsFuzzBody.h"
 #include "tests/tools/view/document/Leaves.h"
 
@@ -19,27 +20,6 @@ std::string shortText() {
     return text;
 }
 
-std::string edited(std::string text, Random& random) {
-    constexpr std::string_view kMarks = "{}[]:,\"\\-0e9. ntf";
-    for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
-        const size_t at = random() % text.size();
-        switch (random() % 4) {
-        case 0:
-            text[at] = kMarks[random() % kMarks.size()];
-            break;
-        case 1:
-            text.erase(at, 1 + random() % 12);
-            break;
-        case 2:
-            text.insert(at, text.substr(random() % text.size(), random() % 24));
-            break;
-        default:
-            text[at] = static_cast<char>(random());
-        }
-    }
-    return text;
-}
-
 TEST(DocumentFuzz, AnyTextIsADocumentOrAnErrorOfOneLine) {
     const std::string text = shortText();
     const auto once = [](std::string const& input) {
@@ -48,7 +28,7 @@ TEST(DocumentFuzz, AnyTextIsADocumentOrAnErrorOfOneLine) {
     ASSERT_TRUE(once(text));
     Random random(11);
     size_t documents = 0;
-    for (int round = 0; round < 800; ++round) documents += once(edited(text, random)) ? 1 : 0;
+    for (int round = 0; round < 800; ++round) documents += once(test::editedText(text, random)) ? 1 : 0;
     EXPECT_GT(documents, 10u) << "edits of numbers are still documents";
     EXPECT_LT(documents, 400u);
     for (size_t length = 0; length < text.size(); length += 37) once(text.substr(0, length));
@@ -63,7 +43,7 @@ TEST(DocumentFuzz, AnyTextIsACameraOrAPathOrAnErrorOfOneLine) {
         ASSERT_TRUE(once(text));
         Random random(12);
         size_t read = 0;
-        for (int round = 0; round < 800; ++round) read += once(edited(text, random)) ? 1 : 0;
+        for (int round = 0; round < 800; ++round) read += once(test::editedText(text, random)) ? 1 : 0;
         EXPECT_GT(read, 10u) << "edits of numbers are still cameras";
         EXPECT_LT(read, 600u);
         for (size_t length = 0; length < text.size(); length += 7) once(text.substr(0, length));
