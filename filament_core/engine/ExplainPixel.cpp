@@ -5,6 +5,7 @@
 
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/ShareSteps.h"
+#include "filament_core/engine/WhatIsShown.h"
 
 #include <algorithm>
 #include <array>
@@ -20,11 +21,6 @@ using engine::PublicCall;
 constexpr std::array kExplained{ Aov::Normal,     Aov::GeometricNormal,    Aov::BaseColor, Aov::Roughness,
                                  Aov::Metallic,   Aov::Occlusion,          Aov::Emissive,  Aov::ObjectId,
                                  Aov::MaterialId, Aov::MaterialInstanceId, Aov::TriangleId };
-
-std::string nameAbove(Scene const& scene, Node node) {
-    while (node && scene.name(node).empty()) node = scene.parent(node);
-    return node ? scene.name(node) : std::string();
-}
 
 /// None: the material has no such number.
 std::optional<float3> valueAt(Image const& image, uint2 pixel) {
@@ -43,16 +39,6 @@ std::optional<uint32_t> idOf(std::optional<float3> const& value) {
     return value ? std::optional(static_cast<uint32_t>(value->x)) : std::nullopt;
 }
 
-void nameMaterial(Scene const& scene, PixelSurface& surface) {
-    scene::Renderables const& renderables = scene.impl().upToDate().renderables;
-    if (!surface.renderable) return;
-    const uint32_t drawable = renderables.drawable[renderables.index.at(surface.renderable)];
-    scene::MaterialInstance const* const instance = renderables.drawables[drawable].material;
-    if (!instance) return;
-    surface.instance = instance->name;
-    surface.material = instance->material->name;
-}
-
 Result<std::optional<PixelSurface>> surfaceAt(Engine& engine, Scene const& scene, View const& view, uint2 pixel) {
     Renderer renderer(engine);
     const Result<PickHit> hit = renderer.waitPick(renderer.pick(scene, view, pixel));
@@ -60,11 +46,14 @@ Result<std::optional<PixelSurface>> surfaceAt(Engine& engine, Scene const& scene
     if (!*hit) return std::optional<PixelSurface>();
     PixelSurface surface{ .renderable = hit->renderable,
                           .light = hit->light,
-                          .object = nameAbove(scene, hit->node),
+                          .object = engine::nameAbove(scene, hit->node),
                           .primitive = hit->primitive,
                           .distanceMeters = hit->distanceMeters,
                           .positionWorld = hit->positionWorld };
-    nameMaterial(scene, surface);
+    if (scene::MaterialInstance const* const shown = engine::shownInstance(scene, surface.renderable)) {
+        surface.instance = shown->name;
+        surface.material = shown->material->name;
+    }
     const Result<std::vector<Image>> numbers = renderAovs(engine, scene, view, kExplained);
     if (!numbers) return numbers.error();
     const auto at = [&](size_t i) { return valueAt((*numbers)[i], pixel); };
@@ -166,18 +155,6 @@ private:
     uint64_t mChanges;
 };
 
-MaterialInstance instanceOf(Scene const& scene, PixelSurface const& surface) {
-    scene::Renderables const& renderables = scene.impl().upToDate().renderables;
-    MaterialInstance handle{};
-    if (!surface.renderable) return handle;
-    const uint32_t drawable = renderables.drawable[renderables.index.at(surface.renderable)];
-    scene::MaterialInstance const* const shown = renderables.drawables[drawable].material;
-    scene.impl().engine.instances.forEachHeld([&](MaterialInstance each, scene::MaterialInstance const& held) {
-        if (&held == shown) handle = each;
-    });
-    return scene.impl().engine.instances.isLive(handle) ? handle : MaterialInstance{};
-}
-
 /// What the lobes of the pixel's material add to the picture, by drawing it with some of them switched off: each is the
 /// difference that a parameter made, so that their sum is the picture's half floats. `last`: the step that is the
 /// picture, whose pixel `at` has the bits `whole`.
@@ -185,8 +162,9 @@ Result<std::vector<PixelLobe>> pixelLobes(Engine& engine, Scene const& scene, en
                                           uint32_t frames, size_t at, std::array<uint16_t, 4> const& whole,
                                           PixelSurface const& surface) {
     std::vector<PixelLobe> terms;
-    const MaterialInstance handle = instanceOf(scene, surface);
-    if (!handle) return terms;
+    auto& instances = engine.impl().instances;
+    const MaterialInstance handle = engine::handleOf(instances, engine::shownInstance(scene, surface.renderable));
+    if (!instances.isLive(handle)) return terms;
     SwitchedInstance instance(engine.impl(), handle);
     std::vector<LobeParameters const*> off = instance.lobes();
     // All that metal reflects has the base colour.

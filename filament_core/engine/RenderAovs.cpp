@@ -2,7 +2,7 @@
 #include <filament_core/RenderAovs.h>
 
 #include "base/OutOfMemory.h"
-#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/WhatIsShown.h"
 #include "filament_core/prepare/NumberObjects.h"
 #include "filament_core/prepare/PreparePick.h"
 #include "filament_core/scene/SceneNodes.h"
@@ -39,16 +39,6 @@ Result<std::vector<Image>> drawAovs(Renderer& renderer, Engine& engine, Scene co
         images.push_back(std::move(*image));
     }
     return images;
-}
-
-/// The handle of what the engine keeps at this address; none: it is nothing of its own.
-template <class Table, class State>
-auto handleOf(Table& table, State const* state) {
-    decltype(table.add()) found{};
-    table.forEachHeld([&](auto handle, auto const& held) {
-        if (&held == state) found = handle;
-    });
-    return found;
 }
 
 /// Numbers count from 1.
@@ -88,14 +78,14 @@ PickHit objectOf(Scene const& scene, uint32_t objectId) {
 Material materialOf(Scene const& scene, uint32_t materialId) {
     const PublicCall call(&scene.impl(), "materialOf(Scene)");
     scene::Material const* const found = nth(prepare::materialsOf(scene.impl().data.renderables), materialId);
-    return found ? handleOf(scene.impl().engine.materials, found) : Material{};
+    return found ? engine::handleOf(scene.impl().engine.materials, found) : Material{};
 }
 
 MaterialInstance materialInstanceOf(Scene const& scene, uint32_t materialInstanceId) {
     const PublicCall call(&scene.impl(), "materialInstanceOf(Scene)");
     scene::MaterialInstance const* const found =
             nth(prepare::instancesOf(scene.impl().data.renderables), materialInstanceId);
-    return found ? handleOf(scene.impl().engine.instances, found) : MaterialInstance{};
+    return found ? engine::handleOf(scene.impl().engine.instances, found) : MaterialInstance{};
 }
 
 ExrLayer layerOf(Aov aov, Image const& image) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What names the things that pixels show: the node above them, the instance that they are drawn with, and the handles
+/// of what an engine keeps.
+///   Thread  the app thread.   Memory  nothing is kept.
+#pragma once
+
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/SceneImpl.h"
+
+#include <string>
+
+namespace filament_core::engine {
+
+/// Name of the nearest node with a name, upwards; may be empty.
+inline std::string nameAbove(Scene const& scene, Node node) {
+    while (node && scene.name(node).empty()) node = scene.parent(node);
+    return node ? scene.name(node) : std::string();
+}
+
+/// What a renderable of the scene is drawn with; null: none, or no renderable.
+inline scene::MaterialInstance const* shownInstance(Scene const& scene, Renderable renderable) {
+    if (!renderable) return nullptr;
+    scene::Renderables const& renderables = scene.impl().upToDate().renderables;
+    return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].material;
+}
+
+/// The handle of what the engine keeps at this address, which may be destroyed and in use; none: it is nothing
+/// of its own.
+template <class Table, class State>
+auto handleOf(Table& table, State const* state) {
+    decltype(table.add()) found{};
+    table.forEachHeld([&](auto handle, auto const& held) {
+        if (&held == state) found = handle;
+    });
+    return found;
+}
+
+} // namespace filament_core::engine
