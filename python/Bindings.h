@@ -7,6 +7,7 @@
 
 #include <filament_core/Animator.h>
 #include <filament_core/Gltf.h>
+#include <filament_core/Mesh.h>
 #include <filament_core/ModelCopy.h>
 #include <filament_core/Renderer.h>
 
@@ -41,10 +42,14 @@ struct OwnedInstance {
 };
 using InstanceObject = Held<OwnedInstance>;
 
+/// Triangles on the device, and the arrays that they are of.
 struct OwnedMesh {
     Owned<VertexBuffer> vertices;
     Owned<IndexBuffer> indices;
-    uint32_t vertexCount = 0, triangleCount = 0;
+    Mesh given;                  ///< normals may be computed, tangents are not used
+    bool hasNormals = true;      ///< that were given
+    std::vector<uint32_t> drawn; ///< the indices on the device: vertices where mirrored textures meet are split
+    uint32_t vertexCount = 0;    ///< on the device
 };
 using MeshObject = Held<OwnedMesh>;
 

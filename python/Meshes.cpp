@@ -5,10 +5,14 @@
 #include <filament_core/Mesh.h>
 #include <filament_core/Primitives.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
 namespace filament_core::python {
 namespace {
 
-std::shared_ptr<MeshObject> upload(EngineObject const& self, Mesh const& mesh) {
+std::shared_ptr<MeshObject> upload(EngineObject const& self, Mesh given, Mesh const& mesh, bool hasNormals) {
     const Owner::Call call(*self.owner);
     Engine& engine = call.engine();
     Owned<VertexBuffer> vertices = engine.own(engine.create(mesh.vertexBuffer()));
@@ -17,9 +21,18 @@ std::shared_ptr<MeshObject> upload(EngineObject const& self, Mesh const& mesh) {
         self.owner->raiseErrors();
         raise({ ErrorCode::OutOfMemory, "there is no memory for the mesh" });
     }
-    OwnedMesh made{ std::move(vertices), std::move(indices), static_cast<uint32_t>(mesh.vertices.size()),
-                    static_cast<uint32_t>(mesh.indices.size() / 3) };
+    OwnedMesh made{ .vertices = std::move(vertices),
+                    .indices = std::move(indices),
+                    .given = std::move(given),
+                    .hasNormals = hasNormals,
+                    .drawn = mesh.indices,
+                    .vertexCount = static_cast<uint32_t>(mesh.vertices.size()) };
     return std::make_shared<MeshObject>(self.owner, std::move(made));
+}
+
+/// A simple shape.
+std::shared_ptr<MeshObject> upload(EngineObject const& self, Mesh const& mesh) {
+    return upload(self, mesh, mesh, true);
 }
 
 float lengthOf(double value, const char* name) { return static_cast<float>(numberIn(value, name, 1e-15, 1e15)); }
@@ -56,39 +69,139 @@ std::vector<float> attributeOf(py::object const& values, const char* name, size_
     return rows;
 }
 
+/// What is None stays as it is.
+struct VertexArrays {
+    std::vector<float> positions{}, normals{}, uv{}, colors{};
+
+    void copyTo(std::vector<MeshVertex>& vertices) const {
+        for (size_t i = 0; i < vertices.size(); ++i) {
+            MeshVertex& vertex = vertices[i];
+            if (!positions.empty()) vertex.position = at(positions, i);
+            if (!normals.empty()) vertex.normal = at(normals, i);
+            if (!uv.empty()) vertex.uv = { uv[i * 2], uv[i * 2 + 1] };
+            if (!colors.empty())
+                vertex.color = { colors[i * 4], colors[i * 4 + 1], colors[i * 4 + 2], colors[i * 4 + 3] };
+        }
+    }
+
+private:
+    static float3 at(std::vector<float> const& rows, size_t i) {
+        return { rows[i * 3], rows[i * 3 + 1], rows[i * 3 + 2] };
+    }
+};
+
+VertexArrays arraysOf(py::object const& positions, py::object const& normals, py::object const& uv,
+                      py::object const& colors, size_t count) {
+    return { .positions = attributeOf(positions, "positions", 3, count),
+             .normals = attributeOf(normals, "normals", 3, count),
+             .uv = attributeOf(uv, "uv", 2, count),
+             .colors = attributeOf(colors, "colors", 4, count) };
+}
+
+/// With normals, unless they were given, and tangents. Outside of the interpreter's lock.
+Result<Mesh> finished(Mesh& given, bool hasNormals) {
+    if (!hasNormals) {
+        for (MeshVertex& vertex : given.vertices) vertex.normal = MeshVertex{}.normal; // where no triangle has an area
+        if (Result<void> done = computeNormals(given); !done) return done.error();
+    }
+    Mesh mesh = given;
+    if (Result<void> done = computeTangents(mesh); !done) return done.error();
+    return mesh;
+}
+
+size_t rowCountOf(py::object const& positions) {
+    const size_t count = rowsOf(positions, "positions", 3).size() / 3;
+    if (count == 0) raiseInvalid("positions: a mesh has at least one vertex");
+    return count;
+}
+
 std::shared_ptr<MeshObject> makeMesh(EngineObject const& self, py::object const& positions, py::object const& triangles,
                                      py::object const& normals, py::object const& uv, py::object const& colors) {
-    const std::vector<float> places = rowsOf(positions, "positions", 3);
-    const size_t count = places.size() / 3;
-    if (count == 0) raiseInvalid("positions: a mesh has at least one vertex");
-    Mesh mesh{ .vertices = std::vector<MeshVertex>(count), .indices = indicesOf(triangles, count) };
-    const std::vector<float> directions = attributeOf(normals, "normals", 3, count);
-    const std::vector<float> coordinates = attributeOf(uv, "uv", 2, count);
-    const std::vector<float> shades = attributeOf(colors, "colors", 4, count);
-    for (size_t i = 0; i < count; ++i) {
-        MeshVertex& vertex = mesh.vertices[i];
-        vertex.position = { places[i * 3], places[i * 3 + 1], places[i * 3 + 2] };
-        if (!directions.empty()) vertex.normal = { directions[i * 3], directions[i * 3 + 1], directions[i * 3 + 2] };
-        if (!coordinates.empty()) vertex.uv = { coordinates[i * 2], coordinates[i * 2 + 1] };
-        if (!shades.empty()) vertex.color = { shades[i * 4], shades[i * 4 + 1], shades[i * 4 + 2], shades[i * 4 + 3] };
-    }
-    if (directions.empty()) check(computeNormals(mesh));
-    check(computeTangents(mesh));
-    return upload(self, mesh);
+    const size_t count = rowCountOf(positions);
+    Mesh given{ .vertices = std::vector<MeshVertex>(count), .indices = indicesOf(triangles, count) };
+    arraysOf(positions, normals, uv, colors, count).copyTo(given.vertices);
+    const Mesh mesh = valueOf(released([&] { return finished(given, !normals.is_none()); }));
+    return upload(self, std::move(given), mesh, !normals.is_none());
+}
+
+/// On the device there are as many vertices as before. Each takes what the corners of its triangles have: where other
+/// positions change which vertices are split, as where vertices come to lie on each other, that of its first corner.
+std::vector<MeshVertex> verticesOf(OwnedMesh const& on, Mesh const& mesh) {
+    std::vector<MeshVertex> vertices(mesh.vertices.begin(),
+                                     mesh.vertices.begin() + static_cast<std::ptrdiff_t>(on.given.vertices.size()));
+    vertices.resize(on.vertexCount);
+    for (size_t corner = on.drawn.size(); corner-- > 0;)
+        vertices[on.drawn[corner]] = mesh.vertices[mesh.indices[corner]];
+    return vertices;
+}
+
+void updateMesh(MeshObject const& self, py::object const& positions, py::object const& normals, py::object const& uv,
+                py::object const& colors) {
+    const Owner::Call call(*self.owner());
+    OwnedMesh& mesh = *self;
+    if (positions.is_none() && normals.is_none() && uv.is_none() && colors.is_none())
+        raiseInvalid("update(): give positions, normals, uv or colors");
+    Mesh given = mesh.given;
+    arraysOf(positions, normals, uv, colors, given.vertices.size()).copyTo(given.vertices);
+    const bool hasNormals = mesh.hasNormals || !normals.is_none();
+    const std::vector<MeshVertex> vertices = valueOf(released([&]() -> Result<std::vector<MeshVertex>> {
+        Result<Mesh> changed = finished(given, hasNormals);
+        if (!changed) return changed.error();
+        return verticesOf(mesh, *changed);
+    }));
+    call.engine().update(mesh.vertices, std::as_bytes(std::span(vertices)));
+    self.owner()->raiseErrors();
+    mesh.given = std::move(given);
+    mesh.hasNormals = hasNormals;
+}
+
+/// Rows of a member of the vertices that were given.
+template <class Vector>
+py::array_t<float> rowsOf(MeshObject const& self, Vector MeshVertex::*member) {
+    std::vector<MeshVertex> const& vertices = self->given.vertices;
+    py::array_t<float> rows({ static_cast<py::ssize_t>(vertices.size()), py::ssize_t{ Vector::length() } });
+    float* out = rows.mutable_data();
+    for (MeshVertex const& vertex : vertices)
+        for (int i = 0; i < Vector::length(); ++i) *out++ = (vertex.*member)[i];
+    return rows;
+}
+
+py::array_t<uint32_t> trianglesOf(MeshObject const& self) {
+    std::vector<uint32_t> const& indices = self->given.indices;
+    py::array_t<uint32_t> rows({ static_cast<py::ssize_t>(indices.size() / 3), py::ssize_t{ 3 } });
+    std::ranges::copy(indices, rows.mutable_data());
+    return rows;
+}
+
+void bindMesh(py::module_& module) {
+    py::class_<MeshObject, std::shared_ptr<MeshObject>>(
+            module, "Mesh",
+            "Triangles on the device, for Scene.add_mesh(). From Engine.mesh(), box(), plane(), sphere(). Keeps the "
+            "arrays, too.")
+            .def_property_readonly(
+                    "vertex_count", [](MeshObject const& self) { return self->vertexCount; },
+                    "How many vertices it has on the device: more than `positions` where mirrored textures meet.")
+            .def_property_readonly(
+                    "triangle_count", [](MeshObject const& self) { return self->given.indices.size() / 3; },
+                    "How many triangles it has.")
+            .def_property_readonly(
+                    "positions", [](MeshObject const& self) { return rowsOf(self, &MeshVertex::position); },
+                    "A copy of the positions: float32 (n, 3).")
+            .def_property_readonly(
+                    "normals", [](MeshObject const& self) { return rowsOf(self, &MeshVertex::normal); },
+                    "A copy of the normals, given or computed: float32 (n, 3).")
+            .def_property_readonly("triangles", &trianglesOf,
+                                   "The vertices of each triangle: uint32 (m, 3). A number of triangleId is a row.")
+            .def("update", &updateMesh, py::arg("positions") = py::none(), py::kw_only(),
+                 py::arg("normals") = py::none(), py::arg("uv") = py::none(), py::arg("colors") = py::none(),
+                 "New values for all vertices, from the next frame on: rows as those of Engine.mesh(). What is None "
+                 "stays, but normals that were never given are computed again, and tangents always.");
 }
 
 } // namespace
 
 void bindMeshes(py::module_& module, EngineClass& engine) {
-    py::class_<MeshObject, std::shared_ptr<MeshObject>>(
-            module, "Mesh",
-            "Triangles on the device, for Scene.add_mesh(). From Engine.mesh(), box(), plane(), sphere().")
-            .def_property_readonly(
-                    "vertex_count", [](MeshObject const& self) { return self->vertexCount; },
-                    "How many vertices it has.")
-            .def_property_readonly(
-                    "triangle_count", [](MeshObject const& self) { return self->triangleCount; },
-                    "How many triangles it has.");
+    bindMesh(module);
     engine.def("mesh", &makeMesh, py::arg("positions"), py::arg("triangles"), py::kw_only(),
                py::arg("normals") = py::none(), py::arg("uv") = py::none(), py::arg("colors") = py::none(),
                "A mesh from arrays: positions (n, 3), triangles (m, 3), counter-clockwise from the front. Normals are "

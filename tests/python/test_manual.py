@@ -48,7 +48,7 @@ class Manual(unittest.TestCase):
         pathlib.Path("report/results.json").write_text(json.dumps(REPORT), encoding="utf-8")
 
     def test_every_block_runs(self):
-        drawing, material, report = blocks()
+        drawing, material, meshes, report = blocks()
         names = {}
         exec(drawing, names)
         self.assertEqual(names["picture"].shape, (360, 640, 4))
@@ -57,6 +57,8 @@ class Manual(unittest.TestCase):
         with fc.Engine("gles") as engine:
             names.update(engine=engine, scene=fc.Scene(engine))
             exec(material, names)
+            names.update(np=np, renderer=fc.Renderer(engine))
+            exec(meshes, names)
         exec(report, names)
         self.assertEqual(names["case"].name, "b")
 

@@ -158,7 +158,7 @@ class HostileArguments(unittest.TestCase):
         material = engine.built_in_material("lit")
         instance = material.instance()
         model = engine.load_model(WINDMILL)
-        parts = [engine, material, instance, scene, fc.View((8, 8)), fc.Renderer(engine), scene.add(model),
+        parts = [engine, material, instance, engine.sphere(), scene, fc.View((8, 8)), fc.Renderer(engine), scene.add(model),
                  scene.add_mesh(engine.sphere(), instance), scene.add_sun((0, -1, 0))]
         functions = [getattr(fc, name) for name in ("compare", "flip", "difference", "load_picture", "View", "Scene",
                                                     "Renderer", "compile_material_text", "compile_material")]
@@ -201,6 +201,7 @@ class HostileArguments(unittest.TestCase):
                  (lambda **k: view.look_at((0, 0, 1), (0, 0, 0), **k), ("fov_degrees", "up", "near")),
                  (lambda **k: view.exposure(**k), ("aperture", "shutter_seconds", "iso")),
                  (lambda **k: engine.mesh(np.eye(3), [[0, 1, 2]], **k), ("normals", "uv", "colors")),
+                 (lambda **k: mesh.update(**k), ("positions", "normals", "uv", "colors")),
                  (lambda **k: renderer.render(scene, view, **k), ("output",)),
                  (lambda **k: engine.load_model(WINDMILL, **k), ("positions", "tangents", "files"))]
         for call, names in calls:
