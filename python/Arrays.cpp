@@ -11,6 +11,7 @@ namespace filament_core::python {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384;
+constexpr double kLastId = 1 << 24; // beyond it floats skip whole numbers
 
 std::string textOf(py::handle value) {
     std::string text = py::repr(value).cast<std::string>();
@@ -166,6 +167,26 @@ py::array arrayOf(Image const& image) {
         out[i] = floatFromHalf(half);
     }
     return result;
+}
+
+IdArray idsOf(py::handle image, const char* name) {
+    const auto values = numericArray<double>(image, name);
+    const bool isFlat = values.ndim() == 2;
+    if (!isFlat && (values.ndim() != 3 || values.shape(2) != 4))
+        raiseInvalid("{}: an image of ids has the shape (height, width, 4) or (height, width)", name);
+    if (values.shape(0) > kMaxSide || values.shape(1) > kMaxSide)
+        raiseInvalid("{}: a side has more than {} pixels", name, kMaxSide);
+    IdArray array{ .width = static_cast<uint32_t>(values.shape(1)), .height = static_cast<uint32_t>(values.shape(0)) };
+    array.ids.resize(size_t{ array.width } * array.height);
+    const size_t channels = isFlat ? 1 : 4;
+    for (size_t i = 0; i < array.ids.size(); ++i) {
+        const double value = values.data()[i * channels];
+        if (!isFlat && values.data()[i * channels + 3] != 1) continue;
+        if (!(value >= 0 && value <= kLastId) || value != std::floor(value))
+            raiseInvalid("{}: {} is no id: those are whole numbers up to 2^24", name, value);
+        array.ids[i] = static_cast<uint32_t>(value);
+    }
+    return array;
 }
 
 Image PictureArray::image() const {

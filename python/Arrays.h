@@ -47,6 +47,15 @@ py::object arrayOf(Box const& box);
 /// Rows of `columns` finite numbers.
 std::vector<float> rowsOf(py::handle values, const char* name, size_t columns);
 
+/// Whole numbers of an image, row by row; 0 where there is none.
+struct IdArray {
+    uint32_t width = 0, height = 0;
+    std::vector<uint32_t> ids{};
+};
+/// Of an image of ids: (height, width, 4) as render_aovs() gives it, with 1 in the last channel where there is one, or
+/// (height, width).
+IdArray idsOf(py::handle image, const char* name);
+
 /// uint8 of shape (height, width, 4) from RGBA8; float32 from RGBA16F, converted exactly, and RGBA32F.
 py::array arrayOf(Image const& image);
 

@@ -16,6 +16,8 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +28,6 @@ namespace filament_core::python {
 
 using ModelObject = Held<Model>;
 using EnvironmentObject = Held<Environment>;
-using SceneObject = Held<Scene>;
 using TextureObject = Held<Owned<Texture>>;
 using LightImageObject = Held<Owned<LightImage>>;
 
@@ -52,6 +53,20 @@ struct OwnedMesh {
     uint32_t vertexCount = 0;    ///< on the device
 };
 using MeshObject = Held<OwnedMesh>;
+
+struct ShapeObject;
+struct LightObject;
+struct CopyObject;
+
+/// A scene, and what Python holds of its parts, by the index of each handle.
+struct SceneContent : Scene {
+    SceneContent(Scene&& scene) : Scene(std::move(scene)) {}
+
+    std::map<uint32_t, std::weak_ptr<ShapeObject>> shapes;
+    std::map<uint32_t, std::weak_ptr<LightObject>> lights;
+    std::map<uint32_t, std::weak_ptr<CopyObject>> copies; ///< by their root
+};
+using SceneObject = Held<SceneContent>;
 
 /// The engine as Python sees it. Nothing else of an engine refers to this object, only to its owner.
 struct EngineObject {

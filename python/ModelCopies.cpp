@@ -8,19 +8,6 @@
 namespace filament_core::python {
 namespace {
 
-struct CopyObject {
-    std::shared_ptr<SceneObject> scene;
-    std::shared_ptr<ModelObject> model;
-    Node root; ///< none: removed
-    std::shared_ptr<Held<Animator>> animator;
-
-    Node live() const {
-        if (!root) raiseClosedError("the copy was removed from its scene");
-        return root;
-    }
-    ModelCopy parts() const { return valueOf(ModelCopy::of(**scene, live())); }
-};
-
 std::shared_ptr<CopyObject> addModel(std::shared_ptr<SceneObject> const& self,
                                      std::shared_ptr<ModelObject> const& model, py::object const& transform, bool fit) {
     const Owner::Call call(*self->owner());
@@ -30,7 +17,9 @@ std::shared_ptr<CopyObject> addModel(std::shared_ptr<SceneObject> const& self,
     const Node root = (*self)->add(**model, worldFromModel);
     if (!root) raise({ ErrorCode::OutOfMemory, "there is no memory for another copy" });
     auto animator = std::make_shared<Held<Animator>>(self->owner(), Animator(**model, **self, root));
-    return std::make_shared<CopyObject>(CopyObject{ self, model, root, std::move(animator) });
+    auto copy = std::make_shared<CopyObject>(CopyObject{ self, model, root, std::move(animator) });
+    (*self)->copies[root.index()] = copy;
+    return copy;
 }
 
 template <class Items>

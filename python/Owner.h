@@ -68,6 +68,9 @@ public:
     static void checkExit();
     /// Raises DeviceError with the errors of the device, if there are any.
     void raiseErrors();
+    /// What Python holds of this kind and `is(value)`; null: nothing.
+    template <class Object, class Is>
+    std::shared_ptr<Object> find(Is const& is) const;
     /// Of the device; known without a call.
     DeviceDescription const& device() const { return mDevice; }
 
@@ -89,7 +92,7 @@ private:
 };
 
 /// Something of an engine as Python holds it.
-class HeldBase {
+class HeldBase : public std::enable_shared_from_this<HeldBase> {
 public:
     std::shared_ptr<Owner> const& owner() const { return mOwner; }
     /// Gives the value up: to Owner::close().
@@ -123,6 +126,14 @@ public:
 private:
     std::shared_ptr<T> mValue;
 };
+
+template <class Object, class Is>
+std::shared_ptr<Object> Owner::find(Is const& is) const {
+    for (HeldBase* held : mHeld)
+        if (auto* object = dynamic_cast<Object*>(held); object && is(**object))
+            return std::static_pointer_cast<Object>(held->weak_from_this().lock());
+    return nullptr;
+}
 
 /// InvalidArgument if `part` belongs to another engine. `what`: "model".
 inline void requireSame(Owner const& owner, HeldBase const& part, std::string_view what) {

@@ -7,6 +7,7 @@
 #include <filament_core/Environment.h>
 
 #include <optional>
+#include <string>
 
 namespace filament_core::python {
 
@@ -14,6 +15,8 @@ using SceneClass = py::class_<SceneObject, std::shared_ptr<SceneObject>>;
 
 struct ShapeObject {
     std::shared_ptr<SceneObject> scene;
+    std::shared_ptr<MeshObject> mesh;
+    std::string name;
     Renderable renderable; ///< none: removed
 
     /// Raises ClosedError once it was removed.
@@ -33,6 +36,19 @@ struct LightObject {
     }
 };
 
+struct CopyObject {
+    std::shared_ptr<SceneObject> scene;
+    std::shared_ptr<ModelObject> model;
+    Node root; ///< none: removed
+    std::shared_ptr<Held<Animator>> animator;
+
+    Node live() const {
+        if (!root) raiseClosedError("the copy was removed from its scene");
+        return root;
+    }
+    ModelCopy parts() const { return valueOf(ModelCopy::of(**scene, live())); }
+};
+
 struct ProbeObject {
     std::shared_ptr<SceneObject> scene;
     ReflectionProbe probe{};                    ///< none: removed
@@ -49,5 +65,7 @@ struct ProbeObject {
 void bindProbes(py::module_& module, SceneClass& scene);
 /// Scene.add(), and the class ModelCopy.
 void bindModelCopies(py::module_& module, SceneClass& scene);
+/// Scene.identify() and its like, and the class Identified.
+void bindIds(py::module_& module, SceneClass& scene);
 
 } // namespace filament_core::python

@@ -36,7 +36,9 @@ std::shared_ptr<ShapeObject> addMesh(std::shared_ptr<SceneObject> const& self, s
                                .name = name };
     const Renderable renderable = (*self)->add(desc);
     if (!renderable) raise({ ErrorCode::OutOfMemory, "there is no memory for another renderable" });
-    return std::make_shared<ShapeObject>(ShapeObject{ self, renderable });
+    auto shape = std::make_shared<ShapeObject>(ShapeObject{ self, mesh, name, renderable });
+    (*self)->shapes[renderable.index()] = shape;
+    return shape;
 }
 
 template <class Desc>
@@ -44,7 +46,9 @@ std::shared_ptr<LightObject> addLight(std::shared_ptr<SceneObject> const& self, 
     const Owner::Call call(*self->owner());
     const Light light = (*self)->add(desc);
     if (!light) raise({ ErrorCode::OutOfMemory, "there is no memory for another light" });
-    return std::make_shared<LightObject>(LightObject{ self, light });
+    auto added = std::make_shared<LightObject>(LightObject{ self, light });
+    (*self)->lights[light.index()] = added;
+    return added;
 }
 
 /// Null without one.
@@ -145,6 +149,8 @@ void setEnvironment(SceneObject const& self, py::object const& source, double il
 
 void bindParts(py::module_& module) {
     py::class_<ShapeObject, std::shared_ptr<ShapeObject>>(module, "Shape", "A mesh in a scene. From Scene.add_mesh().")
+            .def_readonly("mesh", &ShapeObject::mesh, "Its triangles.")
+            .def_readonly("name", &ShapeObject::name, "As it was added.")
             .def(
                     "set_transform",
                     [](ShapeObject const& self, py::object const& transform) {
@@ -265,6 +271,7 @@ void bindScene(py::module_& module) {
     bindLights(scene);
     bindModelCopies(module, scene);
     bindProbes(module, scene);
+    bindIds(module, scene);
 }
 
 } // namespace filament_core::python

@@ -15,13 +15,13 @@
 docs/python.md is the manual; filament_core.reports reads what filament-conformance and filament-accuracy write.
 """
 from . import reports
-from ._core import (ClosedError, Comparison, CorruptError, DeviceError, Engine, Environment, Error, InvalidArgumentError,
+from ._core import (ClosedError, Comparison, CorruptError, DeviceError, Engine, Environment, Error, Identified, InvalidArgumentError,
                     Light, LightImage, Material, MaterialInstance, Mesh, Model, ModelCopy, NotFoundError, OutOfMemoryError,
                     ReflectionProbe, Renderer, Scene, SceneFile, Shape, Texture, ThreadError, UnreadableError, UnsupportedError, View, __version__, compare,
                     compile_material, compile_material_text, difference, explain_pixel, flip, list_devices, load_picture, options,
                     render_aovs, render_shares, save_picture)
 
-__all__ = ["ClosedError", "Comparison", "CorruptError", "DeviceError", "Engine", "Environment", "Error",
+__all__ = ["ClosedError", "Comparison", "CorruptError", "DeviceError", "Engine", "Environment", "Error", "Identified",
            "InvalidArgumentError", "Light", "LightImage", "Material", "MaterialInstance", "Mesh", "Model", "ModelCopy", "NotFoundError",
            "OutOfMemoryError", "ReflectionProbe", "Renderer", "Scene", "SceneFile", "Shape", "Texture", "ThreadError", "UnreadableError",
            "UnsupportedError", "View", "__version__", "compare", "compile_material", "compile_material_text", "difference",

@@ -48,7 +48,7 @@ class Manual(unittest.TestCase):
         pathlib.Path("report/results.json").write_text(json.dumps(REPORT), encoding="utf-8")
 
     def test_every_block_runs(self):
-        drawing, material, meshes, report = blocks()
+        drawing, material, meshes, ids, report = blocks()
         names = {}
         exec(drawing, names)
         self.assertEqual(names["picture"].shape, (360, 640, 4))
@@ -59,6 +59,8 @@ class Manual(unittest.TestCase):
             exec(material, names)
             names.update(np=np, renderer=fc.Renderer(engine))
             exec(meshes, names)
+            exec(ids, names)
+            self.assertTrue(names["shown"].any())
         exec(report, names)
         self.assertEqual(names["case"].name, "b")
 

@@ -202,6 +202,8 @@ class HostileArguments(unittest.TestCase):
                  (lambda **k: view.exposure(**k), ("aperture", "shutter_seconds", "iso")),
                  (lambda **k: engine.mesh(np.eye(3), [[0, 1, 2]], **k), ("normals", "uv", "colors")),
                  (lambda **k: mesh.update(**k), ("positions", "normals", "uv", "colors")),
+                 (lambda **k: scene.identify(**{"image": np.ones((2, 2)), **k}), ("image", "aov")),
+                 (lambda **k: scene.mask(**{"image": np.ones((2, 2)), "part": 1, **k}), ("image", "part", "aov")),
                  (lambda **k: renderer.render(scene, view, **k), ("output",)),
                  (lambda **k: engine.load_model(WINDMILL, **k), ("positions", "tangents", "files"))]
         for call, names in calls:
