@@ -22,6 +22,7 @@
 #include <filament_core/TextureStreaming.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -138,11 +139,16 @@ private:
     Result<void> loadSky(BackendRun& run, std::filesystem::path const& path);
     Result<void> computeSky(BackendRun& run, EnvironmentSettings const& settings);
     Result<void> loadDirt();
+    void pose(double seconds);
+    /// Draws it as it was a frame ago, from which motion counts.
+    Result<void> drawPrevious(Renderer& numbers);
     Result<void> addGround(double level);
 
     std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
     std::vector<Node> mCopies; ///< of it
+    std::vector<Animator> mAnimators;
+    std::optional<uint32_t> mAnimation;
     std::optional<Environment> mEnvironment;
     std::optional<Fog> mSkyFog;
     Owned<Material> mCatcher;
@@ -182,13 +188,19 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     const double4x4 worldFromModel = mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0);
     const Result<std::optional<uint32_t>> animation = animationOf(mOptions, *mModel);
     if (!animation) return animation.error();
+    mAnimation = *animation;
     for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) {
         const Node copy = mCopies.emplace_back(mScene.add(*mModel, place));
-        if (*animation) Animator(*mModel, mScene, copy).apply(**animation, mOptions.seconds.value_or(0));
+        if (mAnimation) mAnimators.emplace_back(*mModel, mScene, copy);
         if (mOptions.variant.empty()) continue;
         if (const Result<void> done = mScene.setVariant(copy, mOptions.variant); !done) return done.error();
     }
+    pose(mOptions.seconds.value_or(0));
     return {};
+}
+
+void Stage::pose(double seconds) {
+    for (Animator& animator : mAnimators) animator.apply(*mAnimation, seconds);
 }
 
 /// Takes the shadows of what stands on it.
@@ -315,12 +327,26 @@ Result<void> Stage::fitBudget(BackendRun& run) {
     return {};
 }
 
+Result<void> Stage::drawPrevious(Renderer& numbers) {
+    View view = mView;
+    view.debugView = DebugView::None;
+    view.camera.worldFromView = Camera::lookAt(mOptions.previousEye, mOptions.previousAt).worldFromView;
+    view.timeSeconds -= 1 / mOptions.framesPerSecond;
+    pose(view.timeSeconds);
+    const Result<std::vector<Image>> drawn = renderAovs(numbers, mScene, view, std::array{ Aov::Motion });
+    pose(mView.timeSeconds);
+    return drawn ? Result<void>{} : Result<void>(drawn.error());
+}
+
 Result<void> Stage::drawAovs(BackendRun& run) {
     if (mOptions.aovs.empty()) return {};
     showProgress(fmt::format("{}: AOVs", fileStem(run.backend)));
     View view = mView;
     view.debugView = DebugView::None;
-    Result<std::vector<Image>> aovs = renderAovs(mEngine, mScene, view, mOptions.aovs);
+    Renderer numbers(mEngine);
+    if (std::ranges::find(mOptions.aovs, Aov::Motion) != mOptions.aovs.end())
+        if (const Result<void> drawn = drawPrevious(numbers); !drawn) return drawn;
+    Result<std::vector<Image>> aovs = renderAovs(numbers, mScene, view, mOptions.aovs);
     if (!aovs) return aovs.error();
     run.aovs = std::move(*aovs);
     return {};

@@ -7,6 +7,7 @@
 #include <filament_core/Sky.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,8 +20,8 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook, saveGltf, saveFrame, skyAltitude, aovs, shares, explainPixel;
-    std::vector<std::string> values, sky;
+                saveLook, saveGltf, saveFrame, skyAltitude, aovs, shares, explainPixel, frameRate;
+    std::vector<std::string> values, sky, previousEye, previousAt;
 };
 
 Result<void> convertChoices(Words const& words, Options& options) {
@@ -153,6 +154,30 @@ Result<void> convertAovs(Words const& words, Options& options) {
     return {};
 }
 
+/// What Aov::Motion is from.
+Result<void> convertPreviousFrame(Words const& words, Options& options) {
+    if (!words.frameRate.empty()) {
+        const auto rate = finiteNumber(words.frameRate);
+        if (!rate || !(*rate > 0) || *rate > 1e4)
+            return invalidOption("--frame-rate", words.frameRate, "frames per second above 0, up to 1e4");
+        options.framesPerSecond = *rate;
+    }
+    const auto isNear = [](std::array<double, 3> const& v) {
+        return std::ranges::all_of(v, [](double c) { return std::abs(c) <= 1e12; });
+    };
+    std::array<double, 3> eye{ options.eye.x, options.eye.y, options.eye.z };
+    std::array<double, 3> at{ options.at.x, options.at.y, options.at.z };
+    constexpr const char* kCure = "three finite coordinates up to 1e12";
+    if (auto done = convertNumbers("--previous-eye", words.previousEye, kCure, eye, isNear); !done) return done;
+    if (auto done = convertNumbers("--previous-at", words.previousAt, kCure, at, isNear); !done) return done;
+    if (eye == at)
+        return fail(ErrorCode::InvalidArgument,
+                    "--previous-eye and --previous-at are the same point; look at another one");
+    options.previousEye = { eye[0], eye[1], eye[2] };
+    options.previousAt = { at[0], at[1], at[2] };
+    return {};
+}
+
 Result<void> convertShares(Words const& words, Options& options) {
     options.shares = enumFromName<ShareTerms>(words.shares);
     if (!words.shares.empty() && !options.shares)
@@ -201,6 +226,12 @@ void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--aovs", words.aovs,
                fmt::format("NAMES, separated by commas: the layers of DIR/API.aovs.exr in full floats: {}",
                            listed(enumNames<Aov>().subspan(1))));
+    app.option("--frame-rate", words.frameRate,
+               "HZ: frames per second; motion among --aovs is from the animation 1/HZ before --time (24)");
+    app.option("--previous-eye", words.previousEye,
+               "X Y Z of the camera of the frame before, for motion among --aovs (as --eye)")
+            .words(3);
+    app.option("--previous-at", words.previousAt, "X Y Z that it looked at (as --at)").words(3);
     app.option("--shares", words.shares,
                "lights, effects or all: what each light and each effect adds to the picture before the tone mapper, as "
                "layers of DIR/API.shares.exr that add up to its bits");
@@ -267,6 +298,9 @@ Result<void> convertSceneFile(SceneWords& words, Words const& own, Options& opti
         { "--time", !own.time.empty() },
         { "--animation", !own.animation.empty() },
         { "--aovs", !own.aovs.empty() },
+        { "--frame-rate", !own.frameRate.empty() },
+        { "--previous-eye", !own.previousEye.empty() },
+        { "--previous-at", !own.previousAt.empty() },
         { "--budget", !own.budget.empty() },
         { "--measure-costs", !own.measureCosts.empty() },
         { "--save-look", !own.saveLook.empty() },
@@ -304,7 +338,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (const Result<void> done = convertSceneFile(sceneWords, words, options); !done) return done.error();
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
     for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertAovs,
-                          convertShares, convertTime, convertSky }) {
+                          convertPreviousFrame, convertShares, convertTime, convertSky }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

@@ -31,11 +31,13 @@ struct Options : SceneOptions {
     uint32_t copies = 1;                                         ///< of the model, on a grid
     uint32_t tolerance = 0;                                      ///< in 1/255
     PictureFormat format = PictureFormat::Png;
-    std::vector<Aov> aovs{};             ///< layers of DIR/API.aovs.exr, each once; empty: none
-    std::optional<ShareTerms> shares{};  ///< of the picture in DIR/API.shares.exr; none: no such file
-    std::optional<uint2> explainPixel{}; ///< printed, and written to DIR/API.pixel.json; none: neither
-    std::optional<double> seconds;       ///< time of the animation and of materials; none: rest pose, 0
-    std::string animation;               ///< name or index; empty: the first, if there is a time
+    std::vector<Aov> aovs{};                   ///< layers of DIR/API.aovs.exr, each once; empty: none
+    std::optional<ShareTerms> shares{};        ///< of the picture in DIR/API.shares.exr; none: no such file
+    std::optional<uint2> explainPixel{};       ///< printed, and written to DIR/API.pixel.json; none: neither
+    std::optional<double> seconds;             ///< time of the animation and of materials; none: rest pose, 0
+    std::string animation;                     ///< name or index; empty: the first, if there is a time
+    double framesPerSecond = 24;               ///< (0, 1e4]: Aov::Motion is from 1/framesPerSecond before `seconds`
+    double3 previousEye{ 0 }, previousAt{ 0 }; ///< of that earlier frame's camera
     bool timing = false, explain = false, trace = false;
     std::filesystem::path traceJobs;    ///< empty: none
     std::filesystem::path saveFrame;    ///< folder of a saved frame (toolkit/record); empty: none

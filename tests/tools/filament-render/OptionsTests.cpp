@@ -94,6 +94,12 @@ TEST(Options, SharesAndAnExplainedPixelAreInThePicture) {
 
 TEST(Options, AovsAreNamesEachOnce) {
     EXPECT_TRUE(parsed({}).aovs.empty());
+    EXPECT_EQ(parsed({ "--eye", "1", "2", "3" }).previousEye, double3(1, 2, 3));
+    EXPECT_EQ(parsed({ "--previous-at", "1", "2", "3" }).previousAt, double3(1, 2, 3));
+    EXPECT_EQ(parsed({ "--frame-rate", "30" }).framesPerSecond, 30);
+    for (const char* words : { "0", "-1", "nan", "1e5" })
+        EXPECT_THAT(refused({ "--frame-rate", words }), HasSubstr("frames per second above 0")) << words;
+    EXPECT_THAT(refused({ "--previous-eye", "0", "0", "0" }), HasSubstr("look at another one"));
     EXPECT_EQ(parsed({ "--aovs", "normal,depth" }).aovs, (std::vector{ Aov::Normal, Aov::Depth }));
     for (const char* words : { "none", "depth,depth", "beauty", "depth,,normal" })
         EXPECT_THAT(refused({ "--aovs", words }), HasSubstr("depth, position")) << words;
