@@ -52,6 +52,16 @@ struct SaveContext {
     }
 };
 
+/// The object behind a handle of the device, live or retired; null: it has none.
+template <class Tag, class State, class Handle>
+State const* stateBehind(HandleTable<Tag, State>& table, Handle handle) {
+    State const* found = nullptr;
+    table.forEachHeld([&](auto, State const& state) {
+        if (state.handle == handle) found = &state;
+    });
+    return found;
+}
+
 /// What a material instance is in the file.
 struct SavedMaterial {
     uint32_t source = assets::kNone;   ///< a material of a file as it is: its source

@@ -103,15 +103,6 @@ Result<std::vector<std::byte>> readBackBy(Engine::Impl& engine, Record const& re
     return engine.stream->waitReadback(ticket);
 }
 
-template <class State, class Tag>
-State const* stateOf(HandleTable<Tag, State> const& table, backend::BufferHandle handle) {
-    State const* found = nullptr;
-    const_cast<HandleTable<Tag, State>&>(table).forEachHeld([&](auto, State const& state) {
-        if (state.handle == handle) found = &state;
-    });
-    return found;
-}
-
 } // namespace
 
 Result<std::vector<std::byte>> readBack(Engine::Impl& engine, TextureState const& texture) {
@@ -143,8 +134,8 @@ Result<std::vector<std::byte> const*> SavedGeometry::bytesOf(backend::BufferHand
 }
 
 Result<GltfMergePrimitive> SavedGeometry::read(scene::Geometry const& geometry, scene::Material const& material) {
-    VertexBufferState const* const vertices = stateOf(mContext.engine.vertexBuffers, geometry.vertices);
-    IndexBufferState const* const indices = stateOf(mContext.engine.indexBuffers, geometry.indices);
+    VertexBufferState const* const vertices = stateBehind(mContext.engine.vertexBuffers, geometry.vertices);
+    IndexBufferState const* const indices = stateBehind(mContext.engine.indexBuffers, geometry.indices);
     GltfMergePrimitive primitive;
     if (!vertices || !indices || geometry.indexCount == 0) return primitive;
     std::array<std::byte const*, kMaxVertexStreams> streams{};

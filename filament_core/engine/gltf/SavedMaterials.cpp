@@ -144,18 +144,10 @@ bool addValue(std::string_view name, std::vector<double> const& value, assets::M
     return true;
 }
 
-TextureState const* textureBehind(Engine::Impl const& engine, backend::TextureHandle handle) {
-    TextureState const* found = nullptr;
-    engine.textures.forEach([&](TextureState const& state) {
-        if (state.handle == handle) found = &state;
-    });
-    return found;
-}
-
 /// Loaders make levels of every image; a texture without them stays without.
-Sampler samplerOf(Engine::Impl const& engine, scene::TextureBinding const& binding) {
+Sampler samplerOf(Engine::Impl& engine, scene::TextureBinding const& binding) {
     Sampler sampler = binding.sampler;
-    if (TextureState const* const texture = textureBehind(engine, binding.texture);
+    if (TextureState const* const texture = stateBehind(engine.textures, binding.texture);
         texture && texture->desc.levels == 1)
         sampler.mipFilter = MipFilter::None;
     return sampler;
@@ -237,7 +229,7 @@ Result<SavedMaterial> SavedMaterials::ofFile(scene::MaterialInstance const& inst
 
 /// Nothing, with a warning, for what PNG does not hold.
 Result<std::optional<uint32_t>> SavedMaterials::imageOf(scene::TextureBinding const& binding, std::string const& user) {
-    TextureState const* const texture = textureBehind(mContext.engine, binding.texture);
+    TextureState const* const texture = stateBehind(mContext.engine.textures, binding.texture);
     const auto isBytes = [](Format format) { return format == Format::RGBA8 || format == Format::RGBA8Srgb; };
     if (!texture || texture->desc.type != TextureKind::Texture2D || !isBytes(texture->desc.format)) {
         mContext.warn("{}: its texture is not written: only 2D textures of 8 bits become images of the file", user);
@@ -299,7 +291,7 @@ Result<SavedMaterial> SavedMaterials::own(scene::MaterialInstance const& instanc
     for (shader::Parameter const& parameter : material.package.parameters) {
         if (!shader::isTexture(parameter.type)) continue;
         const size_t at = map++;
-        if (parameter.name != "baseColorMap" || !textureBehind(mContext.engine, instance.textures[at].texture))
+        if (parameter.name != "baseColorMap" || !stateBehind(mContext.engine.textures, instance.textures[at].texture))
             continue;
         Result<std::optional<uint32_t>> image = imageOf(instance.textures[at], instance.name + ".baseColorMap");
         if (!image) return image.error();

@@ -492,11 +492,8 @@ private:
     }
 
     std::string nameOf(backend::BufferHandle vertices) const {
-        std::string name;
-        mContext.engine.vertexBuffers.forEach([&](VertexBufferState const& state) {
-            if (state.handle == vertices) name = state.name;
-        });
-        return name;
+        VertexBufferState const* const state = stateBehind(mContext.engine.vertexBuffers, vertices);
+        return state ? state->name : std::string();
     }
 
     bool isSplats(Renderable renderable) {
