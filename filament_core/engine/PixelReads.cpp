@@ -21,8 +21,9 @@ PixelTicket PixelReads::ask(TextureState const& texture, uint8_t level, uint16_t
     return mEngine.orNone("reading pixels", texture.name, [&]() -> PixelTicket {
         const Ticket ticket = mEngine.stream->nextTicket();
         const Rect all{ 0, 0, std::max(1u, texture.desc.width >> level), std::max(1u, texture.desc.height >> level) };
-        mPending[ticket.value] = { .width = all.width, .height = all.height, .format = texture.desc.format };
-        if (!texture.handle) return { ticket.value }; // never answered, see isRefused()
+        mPending[ticket.value] = { { .width = all.width, .height = all.height, .format = texture.desc.format },
+                                   !texture.handle };
+        if (!texture.handle) return { ticket.value };
         record({ texture.handle, level, layer, all, ticket });
         return { ticket.value };
     });
@@ -40,11 +41,6 @@ void PixelReads::record(CmdReadTexture const& read) {
     }
 }
 
-/// Whether the engine could not create the image, so that there is nothing to wait for.
-bool PixelReads::isRefused(Image const& image) const {
-    return std::max(image.width, image.height) > mEngine.device.maxTextureSize;
-}
-
 PixelReads::Pending::iterator PixelReads::find(PixelTicket ticket) {
     const auto entry = mPending.find(ticket.value);
     FILAMENT_ASSERT(entry != mPending.end(), "a ticket is taken once, from the renderer that gave it");
@@ -55,9 +51,9 @@ std::optional<Image> PixelReads::take(PixelTicket ticket) {
     if (!ticket) return Image{}; // memory ran out when it was requested
     const auto entry = find(ticket);
     auto bytes = mEngine.stream->takeReadback({ ticket.value });
-    const bool neverComes = isRefused(entry->second) || mEngine.stream->isDeviceLost();
+    const bool neverComes = entry->second.isRefused || mEngine.stream->isDeviceLost();
     if (!bytes && !neverComes) return std::nullopt;
-    Image image = std::move(entry->second);
+    Image image = std::move(entry->second.image);
     if (bytes) image.pixels = std::move(*bytes);
     mPending.erase(entry);
     return image;
@@ -66,10 +62,11 @@ std::optional<Image> PixelReads::take(PixelTicket ticket) {
 Result<Image> PixelReads::wait(PixelTicket ticket) {
     if (!ticket) return outOfMemory("read pixels: not asked");
     const auto entry = find(ticket);
-    Image image = std::move(entry->second);
+    Image image = std::move(entry->second.image);
+    const bool isRefused = entry->second.isRefused;
     mPending.erase(entry);
     return orOutOfMemory("read pixels", {}, [&]() -> Result<Image> {
-        if (!isRefused(image)) {
+        if (!isRefused) {
             auto bytes = mEngine.stream->waitReadback({ ticket.value });
             if (!bytes) return bytes.error();
             image.pixels = std::move(*bytes);

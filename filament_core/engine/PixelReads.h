@@ -25,14 +25,17 @@ public:
     Result<Image> wait(PixelTicket ticket);
 
 private:
-    using Pending = std::map<uint64_t, Image>;
+    struct Read {
+        Image image;            ///< without its bytes
+        bool isRefused = false; ///< the engine could not create the texture: there is nothing to wait for
+    };
+    using Pending = std::map<uint64_t, Read>;
 
     void record(backend::CmdReadTexture const& read);
     Pending::iterator find(PixelTicket ticket);
-    bool isRefused(Image const& image) const;
 
     Engine::Impl& mEngine;
-    Pending mPending; ///< everything except the bytes
+    Pending mPending;
 };
 
 /// For an image that the device could not create.
