@@ -48,7 +48,8 @@ public:
     /// What shaders sample; created on first use, except for the view of all. Null without TextureUsage::Sampled, or
     /// if the device refuses.
     VkImageView sampledView(TextureRange const& range);
-    /// 2D view of one level and layer, or slice, in its attachmentFormat(), made on first use; null if the device refuses.
+    /// 2D view of one level and layer, or slice, in its attachmentFormat(), made on first use; null if the device
+    /// refuses.
     VkImageView attachmentView(uint32_t level, uint32_t layer);
     /// The subresource of a level and layer; a level of a 3D texture is one, with all of its slices.
     SubresourceRange part(uint32_t level, uint32_t layer) const { return { level, 1, is3D() ? 0 : layer, 1 }; }

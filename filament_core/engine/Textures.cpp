@@ -29,9 +29,8 @@ backend::DeviceTextureDesc backendDesc(filament_core::TextureDesc const& desc) {
                     "a cube has six square layers");
     FILAMENT_ASSERT(desc.kind != TextureKind::CubeArray || (desc.layers % 6 == 0 && desc.width == desc.height),
                     "an array of cubes has six square layers per cube");
-    FILAMENT_ASSERT(desc.kind != TextureKind::Texture3D ||
-                            (!desc.generateMips && !desc.renderable && !isCompressed(desc.format)),
-                    "a 3D texture has an uncompressed format and all of its levels in `pixels`, and is not renderable");
+    FILAMENT_ASSERT(desc.kind != TextureKind::Texture3D || (!desc.generateMips && !isCompressed(desc.format)),
+                    "a 3D texture has an uncompressed format, and all of its levels in `pixels`, or draws them");
     FILAMENT_ASSERT(!desc.renderable || formatInfo(desc.format).isRenderable,
                     "a renderable texture, or a swap chain, has a format that passes can write");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
@@ -325,6 +324,11 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
                     "RGBA32F");
     FILAMENT_ASSERT(desc.level < color.levels && desc.layer < color.layers,
                     "the level and the layer of a render target are those of its colour");
+    if (desc.layer >= layersOfLevel(color, desc.level))
+        misused(fmt::format("level {} of a 3D texture has {} slices, and the render target is slice {}", desc.level,
+                            layersOfLevel(color, desc.level), desc.layer));
+    FILAMENT_ASSERT(!desc.generateMips || color.type != TextureKind::Texture3D,
+                    "mips of a 3D texture are not generated; draw to the slices of each level");
     FILAMENT_ASSERT(!desc.generateMips || (desc.level == 0 &&
                                            (!formatInfo(color.format).isSrgb || color.type == TextureKind::Texture2D)),
                     "a render target that generates mips draws to level 0, and to a 2D texture if it is RGBA8Srgb");

@@ -79,8 +79,8 @@ struct DrawOrder {
 
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If
 /// it is empty, the contents are undefined. Copied before the call returns.
-/// A 3D texture (`sampler3d` of a material) has an uncompressed format, and `pixels` holds all of its levels: its
-/// slices, from w = 0 on, are halved from level to level like its rows. It is not renderable.
+/// A 3D texture (`sampler3d` of a material) has an uncompressed format, and `pixels`, if any, all of its levels: its
+/// slices, from w = 0 on, are halved from level to level like its rows.
 struct TextureDesc {
     TextureKind kind = TextureKind::Texture2D;
     Format format = Format::RGBA8;
@@ -318,8 +318,8 @@ struct RenderTargetDesc {
     Texture depth{};
     bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb, 2D
     uint32_t level = 0;        ///< of `color`, to which is drawn: the size of the target is that of the level
-    /// Of `color`, to which is drawn: a layer of an array, or a face of a cube (+X -X +Y -Y +Z -Z), or of an array of
-    /// cubes. What the others hold is kept.
+    /// Of `color`, to which is drawn: a layer of an array, a face of a cube (+X -X +Y -Y +Z -Z), or of an array of
+    /// cubes, or a slice of a level of a 3D texture. What the others hold is kept.
     uint32_t layer = 0;
     /// At most three renderable 2D textures of the size of the target, and of any format that passes can write: the
     /// attachments 1, 2, 3 of passes without a view and of mesh passes (MeshPass.h). Views do not draw to them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views into faces of cubes, layers of arrays and levels; passes without a view, into one colour and into several.
+// Views into faces, layers, slices and levels; passes without a view, into one colour and into several.
 #include "tests/filament_core/engine/postprocess/PassStage.h"
 
 #include <gmock/gmock.h>
@@ -23,8 +23,10 @@ TEST_P(PartsTest, AViewIntoALayerOrAFaceIsThatIntoATexture) {
     for (const Format format : { Format::RGBA8, Format::RGBA16F }) {
         const Owned<RenderTarget> plain = engine.own(engine.create(
                 RenderTargetDesc{ .color = texture({ .format = format, .width = kPassSide, .height = kPassSide }) }));
-        for (const TextureKind kind : { TextureKind::Texture2DArray, TextureKind::Cube, TextureKind::CubeArray }) {
-            const uint32_t layers = kind == TextureKind::CubeArray ? 12 : 6;
+        for (const TextureKind kind :
+             { TextureKind::Texture2DArray, TextureKind::Cube, TextureKind::CubeArray, TextureKind::Texture3D }) {
+            const uint32_t layers = kind == TextureKind::CubeArray || kind == TextureKind::Texture3D ? 12 : 6;
+            const uint32_t first = kind == TextureKind::CubeArray ? 6 : 0; // half of the slices are in level 1
             const Texture film = texture({ .kind = kind,
                                            .format = format,
                                            .width = 2 * kPassSide,
@@ -34,7 +36,7 @@ TEST_P(PartsTest, AViewIntoALayerOrAFaceIsThatIntoATexture) {
             std::vector<Owned<RenderTarget>> parts;
             for (uint32_t layer = 0; layer < 6; ++layer)
                 parts.push_back(engine.own(
-                        engine.create(RenderTargetDesc{ .color = film, .level = 1, .layer = layers - 6 + layer })));
+                        engine.create(RenderTargetDesc{ .color = film, .level = 1, .layer = first + layer })));
             std::vector<Image> drawn;
             for (size_t i = 0; i < parts.size(); ++i) {
                 view.camera = Camera::lookAt({ 0.3 * static_cast<double>(i), 0, 3 }, { 0, 0, 0 },
