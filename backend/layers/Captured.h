@@ -72,6 +72,7 @@ public:
     virtual void edit(CmdCreatePipeline&) {}
     virtual void edit(CmdUploadTexture&) {}
     virtual void edit(CmdUpdateBuffer&) {}
+    virtual void edit(CmdBeginPass&) {}
     virtual void edit(CmdSetViewport&) {}
     virtual void edit(CmdDrawIndexed&) {}
 };

@@ -61,6 +61,7 @@ void DefectTrace::name(Object object, std::string_view kind, std::string_view na
 
 void DefectTrace::begin() {
     mDrawn.clear();
+    mChanged.erase(kPasses);
     mChanged.erase(kViewports);
     mChanged.erase(kDraws);
 }
@@ -74,7 +75,10 @@ DefectReach DefectTrace::reach() const {
     std::set<std::string> names;
     for (Object const& object : changed) {
         const auto known = mNames.find(object);
-        names.insert(known != mNames.end() ? known->second : object == kDraws ? "draws" : "viewports");
+        names.insert(known != mNames.end() ? known->second
+                     : object == kPasses   ? "passes"
+                     : object == kDraws    ? "draws"
+                                           : "viewports");
         reach.isDrawn = reach.isDrawn || mDrawn.contains(object);
     }
     reach.changed = fmt::format("{}", fmt::join(names, ", "));
@@ -133,6 +137,14 @@ void DefectTrace::edit(CmdUpdateBuffer& command) {
     mDefect->edit(command);
     mRanges[{ objectOf(command.buffer), command.offset }] = !isSame(before, command.bytes);
     changeNumbers(objectOf(command.buffer), before, command.bytes);
+}
+
+void DefectTrace::edit(CmdBeginPass& command) {
+    const PassDesc before = command.desc;
+    mDefect->edit(command);
+    const bool isSame =
+            std::ranges::equal(before.colors, command.desc.colors, {}, &Attachment::layer, &Attachment::layer);
+    if (!isSame) changeDrawn(kPasses);
 }
 
 void DefectTrace::edit(CmdSetViewport& command) {

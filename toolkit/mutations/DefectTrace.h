@@ -47,6 +47,7 @@ public:
     void edit(backend::CmdCreatePipeline& command) override;
     void edit(backend::CmdUploadTexture& command) override;
     void edit(backend::CmdUpdateBuffer& command) override;
+    void edit(backend::CmdBeginPass& command) override;
     void edit(backend::CmdSetViewport& command) override;
     void edit(backend::CmdDrawIndexed& command) override;
 
@@ -66,9 +67,9 @@ public:
     void execute(backend::CmdDispatch const&) { noteDraw(); }
 
 private:
-    enum class Kind : uint8_t { Buffer, Texture, Sampler, Program, Pipeline, Group, Viewport, Draw };
+    enum class Kind : uint8_t { Buffer, Texture, Sampler, Program, Pipeline, Group, Pass, Viewport, Draw };
     using Object = std::pair<Kind, uint64_t>; // and the bits of its handle
-    static constexpr Object kViewports{ Kind::Viewport, 0 }, kDraws{ Kind::Draw, 0 };
+    static constexpr Object kPasses{ Kind::Pass, 0 }, kViewports{ Kind::Viewport, 0 }, kDraws{ Kind::Draw, 0 };
 
     template <class Handle>
     static Object objectOf(Handle handle);

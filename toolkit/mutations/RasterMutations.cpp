@@ -118,6 +118,14 @@ public:
     }
 };
 
+class FirstLayerEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdBeginPass& command) override {
+        for (Attachment& color : command.desc.colors) color.layer = 0;
+    }
+};
+
 class EqualDepthEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -176,6 +184,7 @@ constexpr Mutation kRasterMutations[] = {
     { "coverageOff", "alpha does not reach the coverage", make<CoverageOffEdit> },
     { "stencilOff", "stencil test off", make<StencilOffEdit> },
     { "otherColors", "passes leave all colours of their target but the first as they are", make<OtherColorsEdit> },
+    { "firstLayer", "passes draw to the first layer, face or slice of their target", make<FirstLayerEdit> },
     { "equalDepth", "what is drawn where depths are known is drawn everywhere", make<EqualDepthEdit> },
     { "debugThrough", "surfaces do not hide debug drawing", make<DebugThroughEdit> },
     { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },

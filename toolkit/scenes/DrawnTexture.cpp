@@ -10,7 +10,7 @@
 namespace filament_core::tools {
 namespace {
 
-constexpr std::array<std::string_view, 4> kKindWords{ "2d", "array", "cube", "cubeArray" };
+constexpr std::array<std::string_view, 5> kKindWords{ "2d", "array", "cube", "cubeArray", "3d" };
 constexpr std::array<std::string_view, 4> kFormatWords{ "RGBA8", "RGBA8Srgb", "RGBA16F", "RGBA32F" };
 constexpr std::array kFormatsOfWords{ Format::RGBA8, Format::RGBA8Srgb, Format::RGBA16F, Format::RGBA32F };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DrawnTexture: a texture of a scene that passes without a view and mesh passes draw, as a file describes it.
-///   File    kind (2d, array, cube, cubeArray), format, size, layers, levels: of the texture, a square
+///   File    kind (2d, array, cube, cubeArray, 3d), format, size, layers, levels: of the texture, a square
 ///           colors, shown: more than one: attachments of the same format, and which of them is sampled
 ///           draws: in their order; {"material": "FILE.mat", "values": {"tint": "1,0,0"}, "level": 1, "layer": 2}, and
 ///           of mesh passes "meshes": true, "keeps", "keepsHoles", "clear": [0, 0, 0, 1], "layers": 1
