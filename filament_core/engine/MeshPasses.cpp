@@ -2,8 +2,8 @@
 #include "filament_core/engine/MeshPasses.h"
 
 #include "filament_core/engine/RequiredAttributes.h"
-#include "filament_core/engine/materials/CheckSpirv.h"
 #include "filament_core/engine/materials/TextureParameters.h"
+#include "shaders/package/FragmentOutputs.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ Result<void> checkMeshMaterial(scene::MaterialInstance const& instance, PassTarg
     shader::Variant const* variant = package.findVariant(0);
     // Packages without code for Vulkan are taken as they are.
     if (!variant || variant->fragment->spirv.empty()) return {};
-    const uint32_t colors = fragmentOutputs(variant->fragment->spirv).colors;
+    const uint32_t colors = shader::fragmentOutputs(variant->fragment->spirv).colors;
     if (colors == (1u << to.colors) - 1) return {};
     return refusedMeshes(instance,
                          fmt::format("writes {} colours, and is drawn to {}; give `outputs` of the material and "

@@ -2,8 +2,8 @@
 #include "filament_core/engine/PostProcess.h"
 
 #include "base/Suggest.h"
-#include "filament_core/engine/materials/CheckSpirv.h"
 #include "filament_core/engine/materials/TextureParameters.h"
+#include "shaders/package/FragmentOutputs.h"
 
 #include <fmt/format.h>
 
@@ -87,7 +87,7 @@ Result<void> checkOwnTexture(Engine::Impl& engine, scene::MaterialInstance const
 Result<void> checkOutputs(scene::MaterialInstance const& instance, PassTargets const& to) {
     shader::Variant const* variant = instance.material->package.findVariant(0);
     if (!variant || variant->fragment->spirv.empty()) return {};
-    const FragmentOutputs outputs = fragmentOutputs(variant->fragment->spirv);
+    const shader::FragmentOutputs outputs = shader::fragmentOutputs(variant->fragment->spirv);
     if (outputs.colors == (1u << to.colors) - 1 && !outputs.depth) return {};
     const char* const cure = to.isAlone ? "give `outputs` of the material and colours of the render target "
                                           "(RenderTargetDesc::others) the same number, from location 0 on"

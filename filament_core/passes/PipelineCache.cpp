@@ -5,6 +5,7 @@
 #include "filament_core/passes/RasterStates.h"
 #include "filament_core/prepare/ShadowMaps.h"
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/FragmentOutputs.h"
 #include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
@@ -100,6 +101,21 @@ PassSlot withStencil(PassSlot slot, StencilState state) {
     state.front.reference = state.back.reference = 0;
     slot.stencil = state;
     return slot;
+}
+
+/// Whether a surface has `outputs` that the slot has no colours for. Packages without code for Vulkan are taken as they
+/// are.
+bool writesOtherColors(PassSlot const& slot, shader::MaterialPackage const& package, uint16_t variant) {
+    shader::Variant const* code = package.findVariant(variant);
+    if (!code || slot.edges || slot.layout.colorCount == 0) return false;
+    const uint32_t colors = slot.layout.subpasses[slot.subpass].colorMask & ((1u << slot.layout.colorCount) - 1);
+    return (shader::fragmentOutputs(code->fragment->spirv).colors & ~colors & ~1u) != 0;
+}
+
+std::string otherColors(scene::Material const& material) {
+    return fmt::format("material '{}' has several outputs, and views draw to one colour: draw the objects that have it "
+                       "by a mesh pass, Renderer::render(Scene, MeshPass, RenderTarget), or leave 'outputs' out",
+                       material.name);
 }
 
 constexpr VariantSet variantSet(uint32_t bits) { return static_cast<VariantSet>(bits) & VariantSet::All; }
@@ -223,8 +239,11 @@ bool PipelineCache::hasProgram(uint32_t slot, scene::Material const& material, u
 ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
                                             uint8_t variant) {
     const ProgramChoice choice = choose(slot, material, variant);
-    if (material.package.domain == shader::MaterialDomain::Surface)
+    if (material.package.domain == shader::MaterialDomain::Surface) {
+        if (writesOtherColors(mSlots[slot], material.package, choice.variant))
+            return refuse(material, choice.variant, otherColors(material));
         return programFor(setup, material, choice.variant, choice.shading, mSlots[slot].edges);
+    }
     return refuse(material, choice.variant,
                   fmt::format("material '{}' is of domain postprocess: it draws pictures, not the surfaces of "
                               "renderables; leave out 'domain' in its definition",

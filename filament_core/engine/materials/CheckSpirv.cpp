@@ -119,36 +119,4 @@ Result<void> checkSpirv(shader::MaterialPackage const& package) {
     return {};
 }
 
-namespace {
-
-/// Calls visit(op, words) for each instruction.
-template <class Visit>
-void visitInstructions(std::span<const uint32_t> spirv, Visit&& visit) {
-    constexpr size_t kHeader = 5;
-    for (size_t at = kHeader; at < spirv.size();) {
-        const size_t count = std::clamp<size_t>(spirv[at] >> 16, 1, spirv.size() - at);
-        visit(static_cast<spv::Op>(spirv[at] & 0xFFFF), spirv.subspan(at, count));
-        at += count;
-    }
-}
-
-} // namespace
-
-FragmentOutputs fragmentOutputs(std::span<const uint32_t> spirv) {
-    std::array<uint32_t, backend::kMaxColorAttachments + 1> variables{}; // and the depth
-    size_t count = 0;
-    visitInstructions(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
-        const bool isOutput = op == spv::OpVariable && words[3] == static_cast<uint32_t>(spv::StorageClassOutput);
-        if (isOutput && count < variables.size()) variables[count++] = words[2];
-    });
-    FragmentOutputs outputs;
-    visitInstructions(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
-        const auto known = std::span(variables).first(count);
-        if (op != spv::OpDecorate || std::ranges::find(known, words[1]) == known.end()) return;
-        if (words[2] == spv::DecorationLocation) outputs.colors |= 1u << (words[3] & 31);
-        if (words[2] == spv::DecorationBuiltIn && words[3] == spv::BuiltInFragDepth) outputs.depth = true;
-    });
-    return outputs;
-}
-
 } // namespace filament_core::engine

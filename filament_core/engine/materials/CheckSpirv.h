@@ -16,13 +16,4 @@ namespace filament_core::engine {
 
 Result<void> checkSpirv(shader::MaterialPackage const& package);
 
-/// What a fragment stage writes.
-struct FragmentOutputs {
-    uint32_t colors = 0; ///< bit n: the colour of attachment n
-    bool depth = false;
-};
-
-/// Of valid code. Allocates nothing.
-FragmentOutputs fragmentOutputs(std::span<const uint32_t> spirv);
-
 } // namespace filament_core::engine

@@ -321,5 +321,23 @@ TEST_P(MeshPassTest, InAViewAMaterialWithAnOutputShowsIt) {
     EXPECT_EQ(halfPixel(renderLinear(engine, shown, view), 12, 12), float4(0.25f, 0.5f, 0.75f, 1));
 }
 
+// Its program may be there, of a mesh pass. What else is in view is drawn.
+TEST_P(MeshPassTest, InAViewAMaterialWithSeveralOutputsIsNamedAndNotDrawn) {
+    const MaterialInstance three = instance(kThreeOfMeshes);
+    Scene shown(engine);
+    square.add(shown, three);
+    const RenderTarget all = target({ .color = film(), .others = { film(), film() } });
+    renderer.render(shown, { .material = three }, all, view);
+    EXPECT_GT(covered(all), 0u);
+    const Image empty = renderLinear(engine, renderer, Scene(engine), view);
+    EXPECT_EQ(renderLinear(engine, renderer, shown, view).pixels, empty.pixels);
+    EXPECT_THAT(error(), HasSubstr("material 'three' has several outputs, and views draw to one colour: draw the "
+                                   "objects that have it by a mesh pass"));
+    EXPECT_EQ(renderLinear(engine, renderer, shown, view).pixels, empty.pixels);
+    EXPECT_THAT(engine.takeErrors(), testing::IsEmpty()) << "it is said once";
+    renderer.render(shown, { .material = three }, all, view);
+    EXPECT_GT(covered(all), 0u) << "mesh passes still do";
+}
+
 } // namespace
 } // namespace filament_core
