@@ -4,13 +4,12 @@
 #include <filament_core/RenderAovs.h>
 
 #include "base/OutOfMemory.h"
+#include "filament_core/engine/MaterialShares.h"
 #include "filament_core/engine/ShareSteps.h"
 #include "filament_core/engine/WhatIsShown.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
-#include <string_view>
 
 namespace filament_core {
 namespace {
@@ -65,125 +64,27 @@ Result<std::optional<PixelSurface>> surfaceAt(Engine& engine, Scene const& scene
     return std::optional(std::move(surface));
 }
 
-// ---- lobes
-
-/// In the order in which they are switched on, after the specular one; by one of the two parameters.
-struct LobeParameters {
-    std::string_view name, parameter, other;
-};
-constexpr std::array kLobes{ LobeParameters{ "diffuse", "baseColorFactor", "baseColor" },
-                             LobeParameters{ "diffuseTransmission", "diffuseTransmission" },
-                             LobeParameters{ "transmission", "transmission" },
-                             LobeParameters{ "sheen", "sheenColor" },
-                             LobeParameters{ "clearCoat", "clearCoat" },
-                             LobeParameters{ "iridescence", "iridescence" },
-                             LobeParameters{ "emission", "emissiveFactor", "emissive" } };
-
-/// Of vectors red, green and blue: alpha stays.
-size_t factorBytes(ParameterType type) {
-    switch (type) {
-    case ParameterType::Float:
-        return sizeof(float);
-    case ParameterType::Float3:
-    case ParameterType::Float4:
-        return sizeof(float3);
-    default:
-        return 0;
-    }
-}
-
-/// The base colour of what is not metal is its diffuse one, and of metal its specular one.
-std::string nameOf(LobeParameters const& lobe, PixelSurface const& surface) {
-    const bool isOfBase = lobe.name == "diffuse";
-    const bool isDiffuse = surface.roughness && surface.metallic.value_or(0) == 0;
-    return std::string(isOfBase && !isDiffuse ? "baseColor" : lobe.name);
-}
-
-/// Changes the factors of one instance, and gives them back.
-class SwitchedInstance {
-public:
-    SwitchedInstance(Engine::Impl& engine, MaterialInstance handle)
-            : mEngine(engine), mHandle(handle), mInstance(engine.instances.get(handle)),
-              mParameters(mInstance.parameters), mChanges(engine.instanceChanges) {}
-    ~SwitchedInstance() {
-        set(mParameters);
-        mEngine.instanceChanges = mChanges; // nothing has changed
-    }
-    SwitchedInstance(SwitchedInstance const&) = delete;
-    SwitchedInstance& operator=(SwitchedInstance const&) = delete;
-
-    /// Those that the instance has, and that are not 0.
-    std::vector<LobeParameters const*> lobes() const {
-        std::vector<LobeParameters const*> found;
-        for (LobeParameters const& lobe : kLobes)
-            if (!factorOf(lobe).empty()) found.push_back(&lobe);
-        return found;
-    }
-
-    void switchOff(std::span<LobeParameters const* const> off) {
-        std::vector<std::byte> parameters = mParameters;
-        for (LobeParameters const* lobe : off) {
-            const std::span<const std::byte> factor = factorOf(*lobe);
-            std::memset(parameters.data() + (factor.data() - mParameters.data()), 0, factor.size());
-        }
-        set(parameters);
-    }
-
-private:
-    std::span<const std::byte> factorOf(LobeParameters const& lobe) const {
-        for (const std::string_view name : { lobe.parameter, lobe.other }) {
-            shader::Parameter const* const found =
-                    name.empty() ? nullptr : mInstance.material->package.findParameter(name);
-            const size_t bytes = found && found->arraySize == 0 ? factorBytes(found->type) : 0;
-            if (bytes == 0 || found->offset + bytes > mParameters.size()) continue;
-            const std::span<const std::byte> factor = std::span(mParameters).subspan(found->offset, bytes);
-            if (std::ranges::any_of(factor, [](std::byte byte) { return byte != std::byte{ 0 }; })) return factor;
-        }
-        return {};
-    }
-
-    void set(std::vector<std::byte> const& parameters) {
-        mEngine.markDirty(mHandle);
-        std::ranges::copy(parameters, mInstance.parameters.begin());
-        mInstance.parametersDirty = true;
-    }
-
-    Engine::Impl& mEngine;
-    MaterialInstance mHandle;
-    scene::MaterialInstance& mInstance;
-    const std::vector<std::byte> mParameters;
-    uint64_t mChanges;
-};
-
-/// What the lobes of the pixel's material add to the picture, by drawing it with some of them switched off: each is the
-/// difference that a parameter made, so that their sum is the picture's half floats. `last`: the step that is the
-/// picture, whose pixel `at` has the bits `whole`.
-Result<std::vector<PixelLobe>> pixelLobes(Engine& engine, Scene const& scene, engine::ShareStep const& last,
-                                          uint32_t frames, size_t at, std::array<uint16_t, 4> const& whole,
-                                          PixelSurface const& surface) {
-    std::vector<PixelLobe> terms;
+/// By lobe and by texture of the pixel's material instance. `last`: the step that is the picture, whose pixel `at` has
+/// the bits `whole`.
+Result<void> addMaterial(Engine& engine, Scene const& scene, engine::ShareStep const& last, uint32_t frames, size_t at,
+                         std::array<uint16_t, 4> const& whole, PixelExplanation& explanation) {
     auto& instances = engine.impl().instances;
-    const MaterialInstance handle = engine::handleOf(instances, engine::shownInstance(scene, surface.renderable));
-    if (!instances.isLive(handle)) return terms;
-    SwitchedInstance instance(engine.impl(), handle);
-    std::vector<LobeParameters const*> off = instance.lobes();
-    // All that metal reflects has the base colour.
-    if (surface.metallic == 1.0f) std::erase_if(off, [](auto const* lobe) { return lobe->name == "diffuse"; });
-    std::string name = off.empty() ? "all" : surface.roughness ? "specular" : "rest"; // unlit ones reflect nothing
-    std::array<uint16_t, 4> before{};
-    while (!off.empty()) {
-        instance.switchOff(off);
-        std::array<uint16_t, 4> after{};
+    const MaterialInstance handle =
+            engine::handleOf(instances, engine::shownInstance(scene, explanation.surface->renderable));
+    if (!instances.isLive(handle)) return {};
+    const engine::DrawPixel draw = [&]() -> Result<std::array<uint16_t, 4>> {
+        std::array<uint16_t, 4> halves{};
         const Result<void> drawn = engine::drawShares(engine, scene, std::span(&last, 1), frames,
-                                                      [&](Image&& image) { after = engine::halvesAt(image, at); });
-        if (!drawn) return drawn.error();
-        terms.push_back({ std::move(name), engine::shareOf(before, after) });
-        before = after;
-        name = nameOf(*off.front(), surface);
-        off.erase(off.begin());
-    }
-    terms.push_back({ std::move(name), engine::shareOf(before, whole) });
-    return terms;
+                                                      [&](Image&& image) { halves = engine::halvesAt(image, at); });
+        return drawn ? Result<std::array<uint16_t, 4>>(halves) : drawn.error();
+    };
+    Result<std::vector<PixelLobe>> lobes = engine::pixelLobes(engine, handle, *explanation.surface, whole, draw);
+    if (!lobes) return lobes.error();
+    explanation.lobes = std::move(*lobes);
+    Result<std::vector<PixelTexture>> textures = engine::pixelTextures(engine, handle, whole, draw);
+    if (!textures) return textures.error();
+    explanation.textures = std::move(*textures);
+    return {};
 }
 
 Result<PixelExplanation> explained(Engine& engine, Scene const& scene, View const& view, uint2 pixel,
@@ -205,10 +106,8 @@ Result<PixelExplanation> explained(Engine& engine, Scene const& scene, View cons
     if (!surface) return surface.error();
     explanation.surface = std::move(*surface);
     if (!explanation.surface) return explanation;
-    Result<std::vector<PixelLobe>> lobes =
-            pixelLobes(engine, scene, steps.back(), options.frames, at, before, *explanation.surface);
-    if (!lobes) return lobes.error();
-    explanation.lobes = std::move(*lobes);
+    if (Result<void> added = addMaterial(engine, scene, steps.back(), options.frames, at, before, explanation); !added)
+        return added.error();
     return explanation;
 }
 

@@ -53,17 +53,25 @@ void compareSums(Shares const& shares, Image const& picture, ShareVerdict& verdi
     }
 }
 
+/// Of all values; `parts` names them.
+template <class Parts>
+void checkSum(Parts const& parts, const char* name, uint2 at, Image const& picture, ShareVerdict& verdict) {
+    double4 sum(0);
+    for (auto const& part : parts) sum += part.value;
+    if (parts.empty() || !isFinite(sum) || isPixel(picture, at, sum)) return;
+    verdict.faults.push_back(fmt::format("the {} of pixel {}, {} do not add up to it", name, at.x, at.y));
+}
+
 Result<void> explain(Engine& engine, Scene const& scene, View const& view, uint32_t frames, Image const& picture,
                      ShareVerdict& verdict) {
     const uint2 at = view.size / 2u;
     const Result<PixelExplanation> explained =
             explainPixel(engine, scene, view, at, { .terms = ShareTerms::All, .frames = frames });
     if (!explained) return explained.error();
-    double4 sum(0);
-    for (PixelTerm const& term : explained->terms) sum += term.value;
     ++verdict.tally.explained;
-    if (isFinite(sum) && !isPixel(picture, at, sum))
-        verdict.faults.push_back(fmt::format("the terms of pixel {}, {} do not add up to it", at.x, at.y));
+    checkSum(explained->terms, "terms", at, picture, verdict);
+    checkSum(explained->lobes, "lobes", at, picture, verdict);
+    checkSum(explained->textures, "textures", at, picture, verdict);
     return {};
 }
 

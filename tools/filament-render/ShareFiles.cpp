@@ -37,6 +37,9 @@ std::string textOf(PixelExplanation const& explanation) {
             fmt::format("pixel {}, {}: pre-exposed linear light\n", explanation.pixel.x, explanation.pixel.y);
     for (PixelTerm const& term : explanation.terms) text += rowOf(term.term.name, term.value);
     text += rowOf("sum", explanation.value);
+    for (PixelLobe const& lobe : explanation.lobes) text += rowOf("lobe: " + lobe.name, lobe.value);
+    for (PixelTexture const& texture : explanation.textures)
+        text += rowOf("texture: " + (texture.parameter.empty() ? "none" : texture.parameter), texture.value);
     return text + (explanation.surface ? surfaceText(*explanation.surface) : "  no surface\n");
 }
 

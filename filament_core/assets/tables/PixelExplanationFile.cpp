@@ -53,6 +53,14 @@ Json surfaceJson(PixelSurface const& surface) {
     return object;
 }
 
+Json textureJson(PixelTexture const& texture) {
+    if (texture.parameter.empty()) return { { "name", "none" }, { "value", vectorJson(texture.value) } };
+    return { { "name", texture.parameter },
+             { "texture", texture.texture },
+             { "size", { texture.size.x, texture.size.y } },
+             { "value", vectorJson(texture.value) } };
+}
+
 std::string jsonOf(PixelExplanation const& explanation) {
     Json terms = Json::array();
     for (PixelTerm const& term : explanation.terms)
@@ -66,6 +74,9 @@ std::string jsonOf(PixelExplanation const& explanation) {
     for (PixelLobe const& lobe : explanation.lobes)
         lobes.push_back({ { "name", lobe.name }, { "value", vectorJson(lobe.value) } });
     if (!explanation.lobes.empty()) object["lobes"] = std::move(lobes);
+    Json textures = Json::array();
+    for (PixelTexture const& texture : explanation.textures) textures.push_back(textureJson(texture));
+    if (!explanation.textures.empty()) object["textures"] = std::move(textures);
     if (explanation.surface) object["surface"] = surfaceJson(*explanation.surface);
     return object.dump(2, ' ', false, Json::error_handler_t::replace); // names may be no UTF-8
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// explainPixel(): why a pixel has its colour: light by light, effect by effect, lobe by lobe, and the surface that it
-/// shows.
+/// explainPixel(): why a pixel has its colour: light by light, effect by effect, lobe by lobe, texture by texture, and
+/// the surface that it shows.
 /// docs/shares.md, "One pixel".
 ///   Sum     terms in doubles add up to the half floats of the pixel exactly, before tone mapping (Shares.h).
 ///   Thread  the app thread, which waits for the pixels. Not while a frame is drawn.
 ///   Memory  a few hundred bytes; what renderers take is given back.
-///   Cost    a frame for each term and each lobe, one for each number of the surface and each id, and a pick. Other
+///   Cost    a frame for each term, lobe and texture, one for each number of the surface and each id, and a pick. Other
 ///           frames: none.
 #pragma once
 
@@ -32,6 +32,17 @@ struct PixelLobe {
     double4 value{ 0 }; ///< as of PixelTerm; a layer that dims what is below it may be negative
 };
 
+/// What a texture of the surface's material instance changes: the light with it, less that with a neutral one in its
+/// place, which is white: 1 for what a texture multiplies, a flat normal in a parameter whose name ends with normalMap
+/// or NormalMap, no direction in "anisotropyMap", and black in "lightMap". The first has no parameter: the light
+/// without any; then each further one in the order of the material's parameters.
+struct PixelTexture {
+    std::string parameter{}; ///< "baseColorMap"
+    std::string texture{};   ///< its name, may be empty
+    uint2 size{ 0 };         ///< texels of its finest level on the device
+    double4 value{ 0 };      ///< as of PixelTerm
+};
+
 /// Of the nearest surface at the pixel's centre. Numbers that its material does not have are missing.
 struct PixelSurface {
     Renderable renderable{}; ///< none: a light that is drawn
@@ -54,6 +65,7 @@ struct PixelExplanation {
     double4 value{ 0 }; ///< of the picture: the sum of the terms
     std::vector<PixelTerm> terms;
     std::vector<PixelLobe> lobes;        ///< their sum is `value`, too; empty without a renderable
+    std::vector<PixelTexture> textures;  ///< their sum is `value`, too; empty if its material instance has none
     std::optional<PixelSurface> surface; ///< none: nothing is drawn there
 };
 

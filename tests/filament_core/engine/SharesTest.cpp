@@ -331,11 +331,11 @@ TEST(ExplainPixel, TellsTheLobesOfTheMaterialApart) {
         Scene scene(stage.engine);
         stage.square.add(scene, stage.instance);
         scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 3e4f } });
-        stage.engine.set(stage.instance, "baseColor", float3(0.5f, 0.25f, 1));
-        stage.engine.set(stage.instance, "clearCoat", 1.0f);
-        stage.engine.set(stage.instance, "emissive", float3(0.25f, 0, 0.5f));
+        ASSERT_TRUE(stage.engine.set(stage.instance, "baseColor", float3(0.5f, 0.25f, 1)));
+        ASSERT_TRUE(stage.engine.set(stage.instance, "clearCoat", 1.0f));
+        ASSERT_TRUE(stage.engine.set(stage.instance, "emissive", float3(0.25f, 0, 0.5f)));
         for (const float metallic : { 0.0f, 0.5f, 1.0f }) {
-            stage.engine.set(stage.instance, "metallic", metallic);
+            ASSERT_TRUE(stage.engine.set(stage.instance, "metallic", metallic));
             const Result<PixelExplanation> explained =
                     explainPixel(stage.engine, scene, test::SquareMesh::view(), uint2(8));
             ASSERT_TRUE(explained) << explained.error().message;

@@ -166,11 +166,27 @@ void addLobes(std::vector<PixelRow>& rows, PixelExplanation const& first, Inspec
     }
 }
 
+void addTextures(std::vector<PixelRow>& rows, PixelExplanation const& first, InspectedFrame const* own,
+                 InspectedFrame const* other) {
+    for (size_t i = 0; i < first.textures.size(); ++i) {
+        PixelTexture const& texture = first.textures[i];
+        const auto text = [&](PixelExplanation const& of) {
+            return i < of.textures.size() ? lightText(of.textures[i].value) : std::string(kNothing);
+        };
+        const bool isTexture = !texture.parameter.empty();
+        addRow(rows, "the same light, by texture", isTexture ? texture.parameter : "none",
+               isTexture ? fmt::format("{} {}x{}", texture.texture, texture.size.x, texture.size.y)
+                         : std::string("without any of these"),
+               explainedText(own, text), explainedText(other, text));
+    }
+}
+
 void addExplanation(std::vector<PixelRow>& rows, InspectedFrame const* own, InspectedFrame const* other) {
     InspectedFrame const* const first = own && own->explanation ? own : other;
     if (!first || !first->explanation) return;
     addTerms(rows, *first->explanation, own, other);
     addLobes(rows, *first->explanation, own, other);
+    addTextures(rows, *first->explanation, own, other);
     addSurface(rows, own, other);
 }
 

@@ -59,6 +59,24 @@ TEST(PixelReport, ShowsEveryAttachmentAtItsTexel) {
     EXPECT_EQ(unseenAttachments(&frame, nullptr), 1u) << "the atlas";
 }
 
+TEST(PixelReport, TellsTheTexturesOfAnExplainedPixel) {
+    InspectedFrame own = smallFrame();
+    own.explanation.emplace();
+    own.explanation->textures = {
+        { .value = { 1, 1, 1, 1 } },
+        { .parameter = "baseColorMap", .texture = "oak.png", .size = { 64, 32 }, .value = { -0.5, -0.25, 0, 0 } }
+    };
+    InspectedFrame other = own;
+    other.explanation->textures[1].value.z = 0.5;
+    const std::vector<PixelRow> rows = pixelRows({ 5, 3 }, &own, &other);
+    EXPECT_EQ(row(rows, "none").values[0], "1, 1, 1");
+    EXPECT_FALSE(row(rows, "none").differs);
+    EXPECT_EQ(row(rows, "baseColorMap").detail, "oak.png 64x32");
+    EXPECT_EQ(row(rows, "baseColorMap").values[0], "-0.5, -0.25, 0");
+    EXPECT_EQ(row(rows, "baseColorMap").values[1], "-0.5, -0.25, 0.5");
+    EXPECT_TRUE(row(rows, "baseColorMap").differs);
+}
+
 TEST(PixelReport, MarksExactlyWhatDiffers) {
     const InspectedFrame own = smallFrame();
     for (uint32_t byte = 0; byte < 4; ++byte) {
