@@ -61,7 +61,7 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     std::vector<Light> lights;
     lights.reserve(parts.lights.size());
     for (Model::Impl::PartLight const& part : parts.lights) {
-        lights.push_back(std::visit([&](auto const& light) { return add(light, at(part.node)); }, part.light));
+        lights.push_back(add(part.light, at(part.node)));
     }
     engine::setPickRules(parts, *mImpl, nodes);
     mImpl->copies.add({ root, shared, std::move(nodes), std::move(renderables), std::move(lights) });

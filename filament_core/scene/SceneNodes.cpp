@@ -8,10 +8,13 @@
 namespace filament_core::scene {
 namespace {
 
-// A direction survives any scale except zero: along an axis that the node flattens, it is not changed.
+// A direction survives any scale except zero: along an axis that the node flattens, it is not changed. What is a unit
+// vector as far as floats are stays as it is: a node that turns nothing changes no bit of it, and a node whose axis has
+// the numbers of a direction gives them back, as those of saved scenes do.
 float3 turned(Affine const& world, float3 direction) {
     const double3 longer = transformVector(world, double3(direction));
     const double length2 = glm::dot(longer, longer);
+    if (std::abs(length2 - 1) < 1e-6) return float3(longer);
     return length2 > 0 && std::isfinite(length2) ? float3(longer / std::sqrt(length2)) : direction;
 }
 

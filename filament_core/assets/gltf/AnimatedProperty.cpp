@@ -358,6 +358,9 @@ void setValue(LightData& light, PropertyName name, float4 value) {
     // KHR_lights_punctual: the inner cone is smaller.
     if (light.innerConeRadians >= light.outerConeRadians)
         light.innerConeRadians = std::nextafter(light.outerConeRadians, 0.0f);
+    if (name != LightIntensity || light.shape == AreaShape::None) return;
+    const double view = largestView(light), nits = view > 0 ? double{ light.intensity } / view : 0;
+    light.luminance = static_cast<float>(std::min(nits, double{ kFloats }));
 }
 
 void setValue(CameraData& camera, PropertyName name, float4 value) {

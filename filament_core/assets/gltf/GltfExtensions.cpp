@@ -63,6 +63,8 @@ constexpr std::array kExtensions{
                    "light scattered inside such a body, in a colour, forwards or backwards" },
     GltfExtension{ "FILAMENT_bent_normal", kVendor,
                    "the mean open direction in the occlusion texture ([baking](baking.md))" },
+    GltfExtension{ "FILAMENT_light", kVendor,
+                   "area lights, and what else lights of [saved scenes](#the-extension-filament_light) have" },
     GltfExtension{ "FILAMENT_lightmap", kVendor,
                    "baked light of surfaces, a float texture in a KTX 2.0 file ([baking](baking.md))" },
     GltfExtension{ "KHR_xmp", kArchived, "metadata, without effect" },

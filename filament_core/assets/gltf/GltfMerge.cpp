@@ -271,10 +271,10 @@ private:
     void addLights() {
         if (mMerge.lights.empty()) return;
         Json& lights = gltfList(mRoot["extensions"]["KHR_lights_punctual"], "lights");
-        for (GltfMergeLight const& light : mMerge.lights) {
-            Json json = punctualLightJson(light.data);
-            if (light.data.name.empty()) json.erase("name");
-            setExtras(json, light.extras);
+        for (LightData const& light : mMerge.lights) {
+            Json json = punctualLightJson(light);
+            if (light.name.empty()) json.erase("name");
+            if (json.contains("extensions")) use("FILAMENT_light");
             mLights.push_back(lights.size());
             lights.push_back(std::move(json));
         }
@@ -346,7 +346,6 @@ private:
             use("KHR_node_visibility");
         }
         eraseEmpty(json, "extensions");
-        setExtras(json, node.extras);
     }
 
     void writeMesh(GltfMergeNode const& node, Json& json) {

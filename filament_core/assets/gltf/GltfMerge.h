@@ -62,11 +62,6 @@ struct GltfMergeMesh {
     std::vector<GltfMergePrimitive> primitives;
 };
 
-struct GltfMergeLight {
-    LightData data;
-    std::string extras{}; ///< JSON text of an object; empty: none
-};
-
 struct GltfMergeCamera {
     CameraData data;
     double4x4 worldFromCamera{ 1.0 };
@@ -85,7 +80,6 @@ struct GltfMergeNode {
     bool losesLights = false;                    ///< of the file
     uint32_t light = kNone;                      ///< into GltfMerge::lights
     bool isHidden = false;                       ///< KHR_node_visibility
-    std::string extras{};                        ///< JSON text of an object; empty: none
 };
 
 struct GltfMerge {
@@ -95,7 +89,7 @@ struct GltfMerge {
     std::vector<GlbImage> images{}; ///< new ones
     std::vector<GltfMergeMaterial> materials{};
     std::vector<GltfMergeMesh> meshes{};
-    std::vector<GltfMergeLight> lights{};
+    std::vector<LightData> lights{};
     std::vector<GltfMergeCamera> cameras{};
     std::vector<GltfMergeNode> nodes{};
     std::vector<uint32_t> roots{};       ///< into `nodes`

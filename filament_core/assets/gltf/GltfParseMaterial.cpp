@@ -42,16 +42,6 @@ backend::WrapMode parseWrap(JsonNode const& node) {
     }
 }
 
-/// KHR_lights_punctual: 0 <= inner < outer <= pi/2. Equal cones are a hard edge, and stay one.
-void parseCones(JsonNode const& spot, LightData& light) {
-    constexpr float kHalfPi = 1.57079633f, kNarrowest = 1e-3f; // below, the falloff has no digits left in a float
-    light.outerConeRadians = spot["outerConeAngle"].numberInRange(0.7853982f, kNarrowest, kHalfPi);
-    light.innerConeRadians = spot["innerConeAngle"].numberInRange(0, 0, kHalfPi);
-    if (light.innerConeRadians < light.outerConeRadians) return;
-    spot.diagnostics().warn("{}: the inner cone is not inside of the outer one and was narrowed", spot.path());
-    light.innerConeRadians = std::nextafter(light.outerConeRadians, 0.0f);
-}
-
 } // namespace
 
 float3x3 matrixFrom(UvPlacement const& placement) {
@@ -130,27 +120,6 @@ Sampler parseGltfSampler(JsonNode const& node) {
     sampler.wrapU = parseWrap(node["wrapS"]);
     sampler.wrapV = parseWrap(node["wrapT"]);
     return sampler;
-}
-
-std::optional<LightData> parseGltfLight(JsonNode const& node) {
-    LightData light;
-    light.name = node["name"].label();
-    const std::string type = node["type"].text();
-    if (type == "directional") {
-        light.type = LightType::Directional;
-    } else if (type == "spot") {
-        light.type = LightType::Spot;
-    } else if (type != "point") {
-        node.diagnostics().warn("{}.type: '{}' is none of directional, point and spot; the light is left out",
-                                node.path(), type);
-        return std::nullopt;
-    }
-    const auto color = parseFactors<3>(node["color"], 1, 0, kMaxFloat);
-    light.color = { color[0], color[1], color[2] };
-    light.intensity = node["intensity"].numberInRange(1, 0, kMaxFloat);
-    light.rangeMeters = node["range"].numberInRange(0, 0, kMaxFloat);
-    if (light.type == LightType::Spot) parseCones(node["spot"], light);
-    return light;
 }
 
 GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount) {

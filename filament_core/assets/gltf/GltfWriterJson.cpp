@@ -175,25 +175,6 @@ Json materialJson(MaterialData const& material, TextureWriter& textures, Json& r
     return json;
 }
 
-Json lightJson(LightData const& light) {
-    Json json{ { "name", light.name },
-               { "color", { light.color.x, light.color.y, light.color.z } },
-               { "intensity", light.intensity } };
-    switch (light.type) {
-    case LightType::Directional:
-        json["type"] = "directional";
-        break;
-    case LightType::Point:
-        json["type"] = "point";
-        break;
-    case LightType::Spot:
-        json["type"] = "spot";
-        json["spot"] = { { "innerConeAngle", light.innerConeRadians }, { "outerConeAngle", light.outerConeRadians } };
-    }
-    if (light.rangeMeters > 0) json["range"] = light.rangeMeters;
-    return json;
-}
-
 Json imageBasedLightJson(GlbImageBasedLight const& light) {
     Json irradiance = Json::array(), levels = Json::array();
     for (double3 const& c : light.irradiance) irradiance.push_back({ c.x, c.y, c.z });
@@ -262,8 +243,6 @@ Json materialJson(MaterialData const& material, Json& root) {
 
 Json textureInfoJson(TextureRef const& reference, Json& root) { return TextureWriter(root).info(reference); }
 
-Json punctualLightJson(LightData const& light) { return lightJson(light); }
-
 void addLights(GlbScene const& scene, Json& root) {
     if (scene.imageBasedLight) {
         root["extensions"]["EXT_lights_image_based"]["lights"] =
@@ -272,7 +251,10 @@ void addLights(GlbScene const& scene, Json& root) {
     }
     if (scene.lights.empty()) return;
     Json lights = Json::array();
-    for (LightData const& light : scene.lights) lights.push_back(lightJson(light));
+    for (LightData const& light : scene.lights) {
+        lights.push_back(punctualLightJson(light));
+        if (lights.back().contains("extensions")) useExtension("FILAMENT_light", root);
+    }
     root["extensions"]["KHR_lights_punctual"]["lights"] = std::move(lights);
     useExtension("KHR_lights_punctual", root);
 }

@@ -20,7 +20,7 @@ void addMaterials(GlbScene const& scene, Json& root);
 Json materialJson(MaterialData const& material, Json& root);
 /// An info of a texture, as members of materials have it; adds the texture and its sampler.
 Json textureInfoJson(TextureRef const& reference, Json& root);
-/// An element of "extensions.KHR_lights_punctual.lights".
+/// An element of "extensions.KHR_lights_punctual.lights"; with "extensions", if FILAMENT_light has to say something.
 Json punctualLightJson(LightData const& light);
 /// "extensions.KHR_lights_punctual", "extensions.EXT_lights_image_based"
 void addLights(GlbScene const& scene, Json& root);

@@ -114,8 +114,9 @@ struct MeshData {
 };
 
 enum class LightType : uint8_t { Directional, Point, Spot };
+enum class AreaShape : uint8_t { None, Rect, Disc, Tube };
 
-/// KHR_lights_punctual: shines along -Z of its node.
+/// KHR_lights_punctual: shines along -Z of its node. Tubes lie along its X.
 struct LightData {
     std::string name;
     LightType type = LightType::Point;
@@ -125,7 +126,26 @@ struct LightData {
     float innerConeRadians = 0, outerConeRadians = 0.7853982f;
     uint32_t profile =
             kNone; ///< EXT_lights_ies, points: into ModelData::profiles; `intensity` is then that of its peak
+
+    // FILAMENT_light, with the defaults and ranges of <filament_core/Light.h>
+    bool castsShadows = true, contactShadows = false;
+    uint8_t channels = 1;
+    float sourceRadiusMeters = 0; ///< points and spots
+    float angularRadiusDegrees = 0.2665f;
+    bool showsDisc = false; ///< suns
+    float haloSize = 10, haloFalloff = 80;
+    AreaShape shape = AreaShape::None; ///< `type` is what programs show that do not know areas
+    float2 sizeMeters{ 0.0f };         ///< of a rectangle; a disc has its radius twice, a tube its length and radius
+    float luminance = 0;               ///< nits, of areas: instead of `intensity`
+    bool isTwoSided = false, isVisible = false;
 };
+
+/// Square metres that an area light shows from where it looks largest; its candelas there are these times its nits.
+inline double largestView(LightData const& light) {
+    const double x{ light.sizeMeters.x }, y{ light.sizeMeters.y };
+    if (light.shape == AreaShape::Disc) return 3.14159265358979323846 * x * y;
+    return light.shape == AreaShape::Tube ? 2 * x * y : x * y;
+}
 
 /// Looks along -Z of its node, with +Y up (glTF 2.0, section 3.10).
 struct CameraData {

@@ -139,13 +139,10 @@ Camera cameraOf(assets::CameraData const& data, double4x4 const& worldFromNode) 
 }
 
 LightKind kindOf(Model::Impl::PartLight const& part) {
-    return std::visit(
-            []<class T>(T const&) {
-                return std::is_same_v<T, SunLight>     ? LightKind::Sun
-                       : std::is_same_v<T, PointLight> ? LightKind::Point
-                                                       : LightKind::Spot;
-            },
-            part.light);
+    static_assert(
+            std::is_same_v<LightDesc, std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>>,
+            "LightKind has the order of LightDesc");
+    return static_cast<LightKind>(part.light.index());
 }
 
 /// All instances of a material of the model, in any variant.

@@ -58,7 +58,7 @@ struct Model::Impl {
         std::vector<std::string> targetNames; ///< of its morph targets, as far as the file names them
     };
     struct PartLight {
-        std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
+        LightDesc light; ///< in the node's space
         uint32_t node = kRoot;
         std::string name;    ///< of the light, not of its node
         uint32_t source = 0; ///< into `lightsOfFile`

@@ -140,7 +140,8 @@ void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data,
     if (!scene.data.lights.index.contains(light)) return;
     scene::LightRecord record = scene.data.lights.records[scene.data.lights.index.at(light)];
     if (property == LightColor) record.color = data.color;
-    if (property == LightIntensity) record.intensity = isShown ? data.intensity : 0;
+    const bool isArea = data.shape != assets::AreaShape::None;
+    if (property == LightIntensity) record.intensity = !isShown ? 0 : isArea ? data.luminance : data.intensity;
     if (property == LightRange) record.rangeMeters = data.rangeMeters;
     const bool isCone = property == LightInnerCone || property == LightOuterCone;
     if (isCone && record.type == scene::LightRecord::Type::Spot) { // one limits the other

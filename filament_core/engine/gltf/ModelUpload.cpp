@@ -312,28 +312,62 @@ private:
     }
 
     // KHR_lights_punctual and EXT_lights_ies: at the origin of its node, shining along -Z, the profile's +X along +X.
-    std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) const {
-        const double3 position(0.0);
+    LightDesc lightOf(assets::LightData const& light) const {
         const float3 direction(0, 0, -1);
+        if (light.shape != assets::AreaShape::None) return areaOf(light);
         switch (light.type) {
         case assets::LightType::Directional:
-            return SunLight{ direction, Lux{ light.intensity }, light.color };
+            return SunLight{ .directionWorld = direction,
+                             .illuminance = Lux{ light.intensity },
+                             .color = light.color,
+                             .angularRadiusDegrees = light.angularRadiusDegrees,
+                             .showsDisc = light.showsDisc,
+                             .haloSize = light.haloSize,
+                             .haloFalloff = light.haloFalloff,
+                             .castsShadows = light.castsShadows,
+                             .contactShadows = light.contactShadows,
+                             .lightChannels = light.channels };
         case assets::LightType::Point:
-            return PointLight{ .positionWorld = position,
-                               .intensity = Candela{ light.intensity },
+            return PointLight{ .intensity = Candela{ light.intensity },
                                .color = light.color,
                                .rangeMeters = light.rangeMeters,
+                               .sourceRadiusMeters = light.sourceRadiusMeters,
+                               .castsShadows = light.castsShadows,
+                               .contactShadows = light.contactShadows,
+                               .lightChannels = light.channels,
                                .profile = light.profile == kNone ? LightProfile{} : mModel->profiles[light.profile] };
         case assets::LightType::Spot:
             break;
         }
-        return SpotLight{ position,
-                          direction,
-                          Candela{ light.intensity },
-                          light.color,
-                          light.rangeMeters,
-                          light.innerConeRadians,
-                          light.outerConeRadians };
+        return SpotLight{ .directionWorld = direction,
+                          .intensity = Candela{ light.intensity },
+                          .color = light.color,
+                          .rangeMeters = light.rangeMeters,
+                          .innerConeRadians = light.innerConeRadians,
+                          .outerConeRadians = light.outerConeRadians,
+                          .sourceRadiusMeters = light.sourceRadiusMeters,
+                          .castsShadows = light.castsShadows,
+                          .contactShadows = light.contactShadows,
+                          .lightChannels = light.channels };
+    }
+
+    /// FILAMENT_light
+    static LightDesc areaOf(assets::LightData const& data) {
+        const auto with = [&](auto light) {
+            light.luminance = Nits{ data.luminance };
+            light.color = data.color;
+            light.rangeMeters = data.rangeMeters;
+            light.castsShadows = data.castsShadows;
+            light.isVisible = data.isVisible;
+            light.lightChannels = data.channels;
+            return light;
+        };
+        if (data.shape == assets::AreaShape::Tube)
+            return with(TubeLight{ .lengthMeters = data.sizeMeters.x, .radiusMeters = data.sizeMeters.y });
+        if (data.shape == assets::AreaShape::Disc)
+            return with(DiscLight{ .radiusMeters = data.sizeMeters.x, .isTwoSided = data.isTwoSided });
+        return with(RectLight{
+                .widthMeters = data.sizeMeters.x, .heightMeters = data.sizeMeters.y, .isTwoSided = data.isTwoSided });
     }
 
     Engine::Impl& mEngine;

@@ -117,6 +117,8 @@ Result<std::vector<std::byte>> readBack(Engine::Impl& engine, backend::BufferHan
 
 /// A light in the space of its node, or in the world, as a node of its own. Its name says what it is if it has none.
 assets::GltfMergeNode savedLight(SaveContext& context, scene::LightRecord const& record, std::string const& name);
+/// In every member.
+bool isSameLight(scene::LightRecord const& a, scene::LightRecord const& b);
 
 /// The environment and the cameras of the options.
 void saveSurroundings(SaveContext& context, GltfSaveOptions const& options);

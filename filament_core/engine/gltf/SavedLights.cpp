@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights, environment and cameras of a saved scene.
+#include "base/math/Elementary.h"
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/gltf/SaveContext.h"
 
 #include <filament_core/Environment.h>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 namespace filament_core::engine {
 namespace {
 
 using scene::LightRecord;
 
-/// At a place, with -Z along a direction and +X along `side`, as far as it is across.
+/// At a place, with -Z along a direction and +X along `side`, as far as it is across. The numbers of unit vectors stay
+/// as they are, so that the loader gets them back.
 double4x4 placed(double3 const& position, float3 direction, float3 side) {
-    const double3 back = -glm::normalize(double3(direction));
-    double3 right = double3(side) - back * glm::dot(double3(side), back);
-    if (!(glm::dot(right, right) > 1e-12))
-        right = glm::cross(std::abs(back.y) < 0.9 ? double3(0, 1, 0) : double3(1, 0, 0), back);
-    right = glm::normalize(right);
+    const double3 back = -double3(direction);
+    double3 right(side);
+    if (std::abs(glm::dot(right, back)) > 1e-6 || std::abs(glm::dot(right, right) - 1) > 1e-6)
+        right = glm::normalize(glm::cross(std::abs(back.y) < 0.9 ? double3(0, 1, 0) : double3(1, 0, 0), back));
     double4x4 matrix(1.0);
     matrix[0] = double4(right, 0);
     matrix[1] = double4(glm::cross(back, right), 0);
@@ -29,9 +32,10 @@ double4x4 placed(double3 const& position, float3 direction, float3 side) {
     return matrix;
 }
 
-assets::LightType gltfTypeOf(LightRecord::Type type) {
-    if (type == LightRecord::Type::Sun) return assets::LightType::Directional;
-    return type == LightRecord::Type::Spot ? assets::LightType::Spot : assets::LightType::Point;
+/// Along +X, which a tube shines around.
+double4x4 placedAlong(double3 const& position, float3 axis) {
+    const float3 across = glm::cross(axis, std::abs(axis.y) < 0.9f ? float3(0, 1, 0) : float3(1, 0, 0));
+    return placed(position, glm::normalize(across), axis);
 }
 
 const char* typeNameOf(LightRecord::Type type) {
@@ -39,39 +43,63 @@ const char* typeNameOf(LightRecord::Type type) {
     return kNames[static_cast<size_t>(type)];
 }
 
-/// What KHR_lights_punctual does not have, as JSON: "name": value.
-std::vector<std::string> extrasOf(LightRecord const& light) {
-    std::vector<std::string> extras;
-    const auto add = [&](bool isUsed, const char* name, auto const& value) {
-        if (isUsed) extras.push_back(fmt::format("\"{}\": {}", name, value));
-    };
-    const bool isSun = light.type == LightRecord::Type::Sun;
-    add(!light.castsShadows, "castsShadows", false);
-    add(light.contactShadows, "contactShadows", true);
-    add(light.channels != kDefaultLightChannels, "lightChannels", static_cast<uint32_t>(light.channels));
-    if (light.isArea()) {
-        add(true, "width", 2 * light.halfExtent.x);
-        add(true, "height", 2 * light.halfExtent.y);
-        add(true, "nits", light.intensity);
-        add(true, "color", fmt::format("[{}, {}, {}]", light.color.x, light.color.y, light.color.z));
-        add(light.rangeMeters > 0, "range", light.rangeMeters);
-        add(light.isTwoSided, "twoSided", true);
-        add(light.isVisible, "visible", true);
-    } else if (!isSun) {
-        add(light.sourceRadius > 0, "sourceRadius", light.sourceRadius);
-    }
-    if (isSun && light.showsDisc) {
-        add(true, "showsDisc", true);
-        add(true, "haloSize", light.haloSize);
-        add(true, "haloFalloff", light.haloFalloff);
-    }
-    return extras;
+assets::AreaShape shapeOf(LightRecord::Type type) {
+    if (type == LightRecord::Type::Rect) return assets::AreaShape::Rect;
+    if (type == LightRecord::Type::Disc) return assets::AreaShape::Disc;
+    return type == LightRecord::Type::Tube ? assets::AreaShape::Tube : assets::AreaShape::None;
 }
 
-std::string joined(std::vector<std::string> const& parts) {
-    std::string all;
-    for (std::string const& part : parts) all += (all.empty() ? "" : ", ") + part;
-    return all;
+/// Of areas, what programs show that know no areas.
+assets::LightType gltfTypeOf(LightRecord const& record) {
+    if (record.type == LightRecord::Type::Sun) return assets::LightType::Directional;
+    if (record.type == LightRecord::Type::Spot) return assets::LightType::Spot;
+    const bool hasFront = record.type == LightRecord::Type::Rect || record.type == LightRecord::Type::Disc;
+    return hasFront && !record.isTwoSided ? assets::LightType::Spot : assets::LightType::Point;
+}
+
+/// The degrees of which a sun's record has the tangent, to the bit if there are such degrees.
+float angularRadiusOf(float tangent) {
+    const double radians = elementary::atan2(double{ tangent }, 1.0);
+    auto nearest = static_cast<float>(glm::degrees(radians));
+    constexpr int kSteps = 64;
+    float low = nearest;
+    for (int i = 0; i < kSteps; ++i) low = std::nextafter(low, -1.0f);
+    for (int i = 0; i < 2 * kSteps; ++i, low = std::nextafter(low, 90.0f))
+        if (low >= 0 && elementary::tan(glm::radians(low)) == tangent) return low;
+    return std::clamp(nearest, 0.0f, 20.0f);
+}
+
+assets::LightData dataOf(LightRecord const& record, std::string const& name) {
+    const bool isArea = record.isArea(), isDisc = record.type == LightRecord::Type::Disc;
+    assets::LightData data{ .name = name,
+                            .type = gltfTypeOf(record),
+                            .color = record.color,
+                            .intensity = record.intensity,
+                            .rangeMeters = record.rangeMeters,
+                            .castsShadows = record.castsShadows,
+                            .contactShadows = record.contactShadows,
+                            .channels = record.channels,
+                            .shape = shapeOf(record.type),
+                            .isTwoSided = record.isTwoSided,
+                            .isVisible = record.isVisible };
+    if (isArea) {
+        const bool isTube = record.type == LightRecord::Type::Tube;
+        data.sizeMeters = isDisc ? record.halfExtent : record.halfExtent * float2(2, isTube ? 1 : 2);
+        data.luminance = record.intensity;
+        data.outerConeRadians = glm::half_pi<float>();
+    } else if (record.type == LightRecord::Type::Sun) {
+        data.angularRadiusDegrees = angularRadiusOf(record.sourceRadius);
+        data.showsDisc = record.showsDisc;
+        data.haloSize = record.haloSize;
+        data.haloFalloff = record.haloFalloff;
+    } else {
+        data.sourceRadiusMeters = record.sourceRadius;
+    }
+    if (record.type == LightRecord::Type::Spot) {
+        data.innerConeRadians = record.innerConeRadians;
+        data.outerConeRadians = record.outerConeRadians;
+    }
+    return data;
 }
 
 /// As JSON text.
@@ -112,45 +140,34 @@ void addCamera(SaveContext& context, GltfCamera const& camera) {
 
 assets::GltfMergeNode savedLight(SaveContext& context, LightRecord const& record, std::string const& name) {
     const std::string shown = name.empty() ? typeNameOf(record.type) : name;
-    const bool isTube = record.type == LightRecord::Type::Tube, isPoint = record.type == LightRecord::Type::Point;
+    const bool isSun = record.type == LightRecord::Type::Sun, isPoint = record.type == LightRecord::Type::Point;
     const bool isTurned = !isPoint || record.profile || record.image;
-    // A tube shines to all sides: its node has its axis along +X.
-    const float3 direction = isTube ? placed(double3(0), record.sideWorld, {})[0] : record.directionWorld;
+    const double3 at = isSun ? double3(0) : record.positionWorld;
     assets::GltfMergeNode node{ .name = shown };
-    node.transform = isTurned ? placed(record.positionWorld, direction, record.sideWorld) : double4x4(1.0);
-    (*node.transform)[3] = double4(record.type == LightRecord::Type::Sun ? double3(0) : record.positionWorld, 1);
-    const std::vector<std::string> extras = extrasOf(record);
-    const std::string object = extras.empty() ? std::string()
-                                              : fmt::format(R"({{"filament": {{"light": "{}", {}}}}})",
-                                                            typeNameOf(record.type), joined(extras));
+    if (record.type == LightRecord::Type::Tube)
+        node.transform = placedAlong(at, record.sideWorld);
+    else
+        node.transform = placed(at, isTurned ? record.directionWorld : float3(0, 0, -1),
+                                isTurned ? record.sideWorld : float3(1, 0, 0));
     if (record.profile || record.image)
         context.warn("light '{}': its {} is not written; keep the light in a scene file", shown,
                      record.profile ? "photometric profile" : "image");
-    if (record.isArea()) {
-        context.warn("light '{}': glTF has no area lights; its values are extras of a node, which loadGltf() does not "
-                     "read; keep the light in a scene file",
-                     shown);
-        node.extras = object;
-        return node;
-    }
-    if (!extras.empty())
-        context.warn("light '{}': {} are extras, which loadGltf() does not read; keep the light in a scene file", shown,
-                     joined(extras));
-    assets::LightData data{ .name = shown,
-                            .type = gltfTypeOf(record.type),
-                            .color = record.color,
-                            .intensity = record.intensity,
-                            .rangeMeters = record.rangeMeters };
-    if (record.type == LightRecord::Type::Spot) {
-        data.innerConeRadians = record.innerConeRadians;
-        data.outerConeRadians = record.outerConeRadians;
-    }
-    // Colours are in [0, 1] there (KHR_lights_punctual has no limit, other programs do).
-    const float most = std::max({ data.color.x, data.color.y, data.color.z });
-    if (most > 1) data.color = data.color / most, data.intensity *= most;
     node.light = static_cast<uint32_t>(context.merge.lights.size());
-    context.merge.lights.push_back({ std::move(data), object });
+    context.merge.lights.push_back(dataOf(record, shown));
     return node;
+}
+
+bool isSameLight(LightRecord const& a, LightRecord const& b) {
+    // All members: one more or less does not compile.
+    const auto members = [](LightRecord const& light) {
+        auto const& [type, position, direction, color, intensity, range, inner, outer, radius, casts, contact, channels,
+                     isTwoSided, isVisible, side, extent, profile, image, scale, offset, disc, haloSize, falloff] =
+                light;
+        return std::tie(type, position, direction, color, intensity, range, inner, outer, radius, casts, contact,
+                        channels, isTwoSided, isVisible, side, extent, profile, image, scale, offset, disc, haloSize,
+                        falloff);
+    };
+    return members(a) == members(b);
 }
 
 void saveSurroundings(SaveContext& context, GltfSaveOptions const& options) {

@@ -108,8 +108,9 @@ private:
         scene::Renderables const& all = mData.renderables;
         for (uint32_t i = 0; i < all.count(); ++i) {
             const Renderable renderable = all.index.handleAt(i);
+            if (isShape.contains(renderable.index())) continue;
             warnAboutProperties(renderable, i);
-            if (isShape.contains(renderable.index()) || mOfCopies.contains(renderable.index())) continue;
+            if (mOfCopies.contains(renderable.index())) continue;
             const Node node = scene::nodeOf(mData, renderable);
             mOwn[node ? node.index() : kNone].push_back(renderable);
         }
@@ -395,15 +396,7 @@ private:
     }
 
     bool isAsLoaded(Model::Impl::PartLight const& part, Light light) const {
-        const scene::LightRecord rest =
-                std::visit([&](auto const& desc) { return recordOf(mContext.engine, LightDesc(desc)); }, part.light);
-        const scene::LightRecord now = localRecord(light);
-        return now.type == rest.type && now.color == rest.color && now.intensity == rest.intensity &&
-               now.rangeMeters == rest.rangeMeters && now.innerConeRadians == rest.innerConeRadians &&
-               now.outerConeRadians == rest.outerConeRadians && now.sourceRadius == rest.sourceRadius &&
-               now.castsShadows == rest.castsShadows && now.contactShadows == rest.contactShadows &&
-               now.channels == rest.channels && now.profile == rest.profile && now.image == rest.image &&
-               now.positionWorld == rest.positionWorld && now.directionWorld == rest.directionWorld;
+        return isSameLight(localRecord(light), recordOf(mContext.engine, part.light));
     }
 
     /// In the space of its node; else in the world.

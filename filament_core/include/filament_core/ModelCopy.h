@@ -50,7 +50,8 @@ struct CopyMaterial {
     uint32_t renderables = 0;
 };
 
-enum class LightKind : uint8_t { Sun, Point, Spot };
+/// The areas are those of FILAMENT_light (docs/gltf.md).
+enum class LightKind : uint8_t { Sun, Point, Spot, Rect, Disc, Tube };
 
 struct CopyLight {
     std::string name{}; ///< of the light; that of its node if the light has none

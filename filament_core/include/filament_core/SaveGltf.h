@@ -9,8 +9,8 @@
 ///           shown.
 ///   Meshes  that the program made are read back from the device, with their materials: the built-in ones, and of
 ///           others the parameters that have the same names.
-///   Lights  suns, points and spots: KHR_lights_punctual. The rest of their values, and area lights, are extras, which
-///           loadGltf() does not read.
+///   Lights  are those of KHR_lights_punctual; the rest of their values, and areas, are in FILAMENT_light
+///           (docs/gltf.md), which loadGltf() reads. Other programs show an area as a point or spot of its candelas.
 ///   Nodes   have the places of the scene in double precision: the digits of JSON keep millimetres 10^7 metres away for
 ///           loadGltf(), though other programs may round them to floats.
 ///   Lost    is what docs/gltf.md lists: each is a warning that names the object.

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace filament_core::assets::test {
@@ -164,6 +165,14 @@ inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
 inline const char* brokenPromise(ModelData const& model, LightData const& light) {
     if (light.profile != kNone && (light.profile >= model.profiles.size() || light.type != LightType::Point))
         return "light profile";
+    const auto isIn = [](float value, float low, float high) { return value >= low && value <= high; };
+    constexpr float kMost = std::numeric_limits<float>::max();
+    if (!isIn(light.sourceRadiusMeters, 0, kMost) || !isIn(light.angularRadiusDegrees, 0, 20))
+        return "radius of a light";
+    if (!isIn(light.haloSize, 1, 1000) || !isIn(light.haloFalloff, 0, 10'000)) return "halo of a sun";
+    if (!isIn(light.sizeMeters.x, 0, kMost) || !isIn(light.sizeMeters.y, 0, kMost)) return "size of a light";
+    if (!isIn(light.luminance, 0, kMost)) return "luminance";
+    if (!isIn(std::max({ light.color.x, light.color.y, light.color.z }), 0, kMost)) return "color of a light";
     return std::isfinite(light.intensity) && light.intensity >= 0 ? nullptr : "light intensity";
 }
 

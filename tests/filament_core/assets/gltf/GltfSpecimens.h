@@ -45,6 +45,12 @@ inline constexpr const char* kSpecimenExtensions = R"({
     "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 },
     "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 0.5, 0.25, 1 ], "scatterAnisotropy": 0.5,
         "multiscatterColorTexture": { "index": 1 } } })";
+inline constexpr const char* kSpecimenLight = R"({ "type": "spot", "spot": {}, "extensions": { "FILAMENT_light": {
+    "version": 1, "color": [ 2, 1, 0.5 ], "intensity": 7, "castsShadows": false, "contactShadows": true,
+    "lightChannels": 3, "sourceRadius": 0.5, "area": { "shape": "rect", "width": 2, "height": 3, "luminance": 9,
+    "twoSided": true, "visible": true } } } })";
+inline constexpr const char* kSpecimenSun = R"({ "type": "directional", "extensions": { "FILAMENT_light": {
+    "version": 1, "angularRadius": 2, "showsDisc": true, "haloSize": 20, "haloFalloff": 90 } } })";
 inline constexpr const char* kSpecimenGlossiness = R"({ "KHR_materials_pbrSpecularGlossiness": {
     "diffuseFactor": [ 1, 0, 1, 0.5 ], "glossinessFactor": 0.5, "specularGlossinessTexture": { "index": 0 } } })";
 
@@ -94,7 +100,10 @@ inline Specimen writtenSpecimen() {
     file.root["extensions"]["EXT_lights_ies"]["lights"] = { { { "bufferView",
                                                                 file.addView(std::as_bytes(std::span(luminaire))) },
                                                               { "mimeType", "application/x-ies-lm-63" } } };
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] =
+            Json::array({ Json::parse(kSpecimenLight), Json::parse(kSpecimenSun) });
+    file.root["nodes"].push_back(Json::parse(R"({ "extensions": { "KHR_lights_punctual": { "light": 1 } } })"));
+    file.root["nodes"][0]["children"].push_back(2);
     file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
     return specimenFrom(file.root, file.binary);
 }
@@ -122,7 +131,7 @@ inline Specimen pointerSpecimen() {
     file.root["scenes"][0]["nodes"] = Json::array({ 0, 1, 2 });
     file.root["cameras"] = Json::parse(R"([ { "type": "orthographic", "orthographic": { "xmag": 1, "ymag": 1,
         "znear": 0, "zfar": 2 } } ])");
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({ Json::parse(kSpecimenLight) });
     Json& animation = file.root["animations"][0];
     const size_t times = file.add(std::vector<float>{ 0, 1 }, kFloat, "SCALAR", 1);
     const std::array outputs{ file.add(std::vector<float>{ -9, 9 }, kFloat, "SCALAR", 1),
@@ -139,6 +148,7 @@ inline Specimen pointerSpecimen() {
         { "/materials/0/extensions/KHR_materials_ior/ior", 0 },
         { "/materials/0/extensions/EXT_materials_bump/bumpFactor", 0 },
         { "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 0 },
+        { "/extensions/KHR_lights_punctual/lights/0/intensity", 0 },
         { "/cameras/0/orthographic/ymag", 0 },
         { "/cameras/0/orthographic/zfar", 0 },
         { "/nodes/0/translation", 2 },
