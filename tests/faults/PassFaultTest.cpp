@@ -22,7 +22,8 @@ fragment { void postProcess(inout PostProcessInputs inputs) {
     inputs.color = texelFetch(materialParams_color, getPixel(), 0) * texelFetch(materialParams_depth, getPixel(), 0).x;
 } })";
 
-/// A frame with a pass of the app over its picture, a pass without a view, and a mesh pass, which keep to one target.
+/// A frame with a pass of the app over its picture, a pass without a view, and a mesh pass, which keep to one target;
+/// and a pass into a slice.
 class PassesStage {
 public:
     explicit PassesStage(Engine& engine) : mEngine(engine), mStage(engine) {
@@ -37,6 +38,14 @@ public:
                     engine.create(TextureDesc{ .format = format, .width = 16, .height = 16, .renderable = true })));
         mTarget = engine.own(engine.create(
                 RenderTargetDesc{ .color = mTextures[0], .depth = mTextures[2], .others = { mTextures[1] } }));
+        mTextures.push_back(engine.own(engine.create(TextureDesc{ .kind = TextureKind::Texture3D,
+                                                                  .format = Format::RGBA16F,
+                                                                  .width = 16,
+                                                                  .height = 16,
+                                                                  .layers = 4,
+                                                                  .renderable = true })));
+        mSlice = engine.own(
+                engine.create(RenderTargetDesc{ .color = mTextures[3], .layer = 2, .others = { mTextures[1] } }));
         mPasses[0] = { mInstances[2], PassPlace::BeforeToneMapping };
         mStage.view().postProcess = mPasses;
     }
@@ -44,6 +53,7 @@ public:
     Result<void> draw() {
         Renderer& renderer = mStage.renderer();
         renderer.render(mInstances[0], mTarget);
+        renderer.render(mInstances[0], mSlice);
         renderer.render(mStage.scene(), { .material = mInstances[1], .contents = TargetContents::Keep }, mTarget,
                         mStage.view());
         renderer.render(mStage.scene(), { .material = mInstances[1], .keepsHoles = true }, mTarget, mStage.view());
@@ -64,7 +74,7 @@ private:
     std::vector<Owned<Material>> mMaterials;
     std::vector<Owned<MaterialInstance>> mInstances;
     std::vector<Owned<Texture>> mTextures;
-    Owned<RenderTarget> mTarget;
+    Owned<RenderTarget> mTarget, mSlice;
     std::array<PostProcessPass, 1> mPasses;
 };
 
