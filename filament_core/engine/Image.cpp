@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filament_core/Color.h>
 #include <filament_core/Image.h>
+#include <filament_core/StraightAlpha.h>
 #include <filament_core/TexelBytes.h>
 
 #include "backend/api/Format.h"
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
+#include "base/math/Half.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ExrWriter.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/image/PictureDecoder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace filament_core {
@@ -104,6 +109,51 @@ Result<void> saveLayers(std::filesystem::path const& path, std::span<const ExrLa
 
 Result<void> saveExr(std::filesystem::path const& path, std::span<const ExrLayer> layers) {
     return orOutOfMemory("image", path.native(), [&] { return saveLayers(path, layers); });
+}
+
+namespace {
+
+void divideCodes(std::span<std::byte> texel) {
+    const auto codeOf = [](std::byte code) { return static_cast<float>(std::to_integer<int>(code)); };
+    const float alpha = codeOf(texel[3]);
+    if (alpha == 255) return; // the codes as they are
+    float3 codes(0);
+    if (alpha > 0) {
+        const float3 light =
+                color::linearFromSrgb(float3(codeOf(texel[0]), codeOf(texel[1]), codeOf(texel[2])) / 255.0f);
+        codes = 255.0f * color::srgbFromLinear(min(light * (255 / alpha), 1.0f));
+    }
+    for (int c = 0; c < 3; ++c) texel[static_cast<size_t>(c)] = static_cast<std::byte>(std::lround(codes[c]));
+}
+
+void divideHalves(std::span<std::byte> texel) {
+    constexpr float kMost = 65504; // of halves
+    std::array<uint16_t, 4> halves;
+    std::memcpy(halves.data(), texel.data(), sizeof(halves));
+    const float alpha = floatFromHalf(halves[3]);
+    for (uint16_t& half : std::span(halves).first(3))
+        half = alpha > 0 ? halfFromFloat(std::clamp(floatFromHalf(half) / alpha, -kMost, kMost)) : uint16_t{ 0 };
+    std::memcpy(texel.data(), halves.data(), sizeof(halves));
+}
+
+void divideFloats(std::span<std::byte> texel) {
+    std::array<float, 4> floats;
+    std::memcpy(floats.data(), texel.data(), sizeof(floats));
+    for (float& number : std::span(floats).first(3)) number = floats[3] > 0 ? number / floats[3] : 0;
+    std::memcpy(texel.data(), floats.data(), sizeof(floats));
+}
+
+} // namespace
+
+Image straightAlpha(Image image) {
+    const bool isCodes = image.format == Format::RGBA8 || image.format == Format::RGBA8Srgb;
+    FILAMENT_ASSERT(isCodes || image.format == Format::RGBA16F || image.format == Format::RGBA32F,
+                    "an image with straight alpha is RGBA8, RGBA8Srgb, RGBA16F or RGBA32F");
+    const size_t bytes = texelBytes(image.format);
+    const auto divide = isCodes ? divideCodes : image.format == Format::RGBA16F ? divideHalves : divideFloats;
+    for (size_t at = 0; at + bytes <= image.pixels.size(); at += bytes)
+        divide(std::span(image.pixels).subspan(at, bytes));
+    return image;
 }
 
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space) {

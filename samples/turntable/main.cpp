@@ -67,15 +67,6 @@ void store(std::byte* texel, float3 light, float alpha) {
     for (int i = 0; i < 4; ++i) texel[i] = static_cast<std::byte>(std::lround(255 * codes[i]));
 }
 
-/// As PNG wants it: colours are not multiplied by alpha.
-Image straight(Image image) {
-    for (size_t at = 0; at < image.pixels.size(); at += 4) {
-        const float4 light = lightOf(&image.pixels[at]);
-        store(&image.pixels[at], float3(light) / std::max(light.w, 1.0f / 255), light.w);
-    }
-    return image;
-}
-
 /// Over light grey.
 void copyTo(Image& strip, Image const& image, uint32_t place) {
     constexpr float kGrey = 0.65f;
@@ -135,7 +126,7 @@ int main(int argc, char** argv) {
             const std::string number = std::to_string(frame);
             const std::filesystem::path file =
                     std::filesystem::path(argv[5]) / (std::string(3 - number.size(), '0') + number + ".png");
-            if (const Result<void> saved = savePng(file, straight(*image)); !saved) return fail(saved.error());
+            if (const Result<void> saved = savePng(file, straightAlpha(*image)); !saved) return fail(saved.error());
         }
         if (frame == frames && image->pixels != first.pixels)
             return fail({ ErrorCode::Internal, "the last frame does not lead to the first" });

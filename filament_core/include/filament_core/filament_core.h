@@ -62,6 +62,7 @@
 #include <filament_core/SkyDesc.h>
 #include <filament_core/Splats.h>
 #include <filament_core/Stencil.h>
+#include <filament_core/StraightAlpha.h>
 #include <filament_core/TexelBytes.h>
 #include <filament_core/TextureStreaming.h>
 #include <filament_core/Units.h>
