@@ -47,7 +47,8 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     resources.noFogCells = mEngine.defaults.noFogCells;
     resources.white = mEngine.textureHandle(mEngine.unsetTexture({ .type = ParameterType::Sampler2D }));
     resources.instanceIds = mEngine.defaults.instanceIds;
-    if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();
+    if (packet.settings.cutsSlabs || (packet.shadows.keepsAtlas && packet.shadows.drawn > 0))
+        resources.farDepth = farDepth();
     if (packet.demand.needs(prepare::Effect::Motion)) resources.motion = mEngine.motionInstance();
     if (packet.mainView().counts.fadingLevels > 0)
         resources.levelFade = { mEngine.levelFadeInstance(false), mEngine.levelFadeInstance(true) };

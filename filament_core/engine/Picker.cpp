@@ -28,13 +28,36 @@ float pickedDepthAt(std::span<const std::byte> texels, size_t i) {
     return depth;
 }
 
-/// Whether a back face of the candidate is nearer than all of its front faces.
+/// The texel of the candidate's front faces; none: planes do not cut it.
 template <class P>
-bool showsBack(P const& pending, std::span<const std::byte> texels, size_t candidate) {
-    const auto front = std::ranges::find(pending.fronts, candidate);
-    if (front == pending.fronts.end()) return false;
-    const auto at = pending.candidates.size() + static_cast<size_t>(front - pending.fronts.begin());
-    return pickedDepthAt(texels, at) < pickedDepthAt(texels, candidate) * (1 - kEqual);
+std::optional<size_t> frontOf(P const& pending, size_t candidate) {
+    const auto front = std::ranges::lower_bound(pending.fronts, candidate);
+    if (front == pending.fronts.end() || *front != candidate) return {};
+    return pending.candidates.size() + static_cast<size_t>(front - pending.fronts.begin());
+}
+
+/// Where a back face of the candidate is nearer than all of its front faces: the cap that is seen instead, if one is.
+template <class P>
+std::optional<prepare::PickedPoint> capOf(P const& pending, std::span<const std::byte> texels, size_t candidate,
+                                          prepare::PickedPoint const& point) {
+    const std::optional<size_t> front = frontOf(pending, candidate);
+    if (!front || pickedDepthAt(texels, *front) >= pickedDepthAt(texels, candidate) * (1 - kEqual)) return {};
+    return prepare::pickedCap(pending.section, pending.camera, point);
+}
+
+/// Whether candidates that planes cut have left their first surfaces behind where rays enter (PickPass.cpp), also those
+/// that are cut off.
+template <class P>
+bool showsSlabCaps(P const& pending) {
+    return !pending.fronts.empty() && prepare::cutsSlabs(pending.section);
+}
+
+/// The nearest of what planes cut, as depth.
+template <class P>
+float firstCutOpen(P const& pending, std::span<const std::byte> texels) {
+    float first = 0;
+    for (const uint32_t candidate : pending.fronts) first = std::max(first, pickedDepthAt(texels, candidate));
+    return first;
 }
 
 /// The nearest; of equal ones the last drawn, as on screen.
@@ -42,21 +65,26 @@ template <class P>
 PickHit nearestHit(P const& pending, std::span<const std::byte> texels) {
     PickHit nearest;
     float nearestDepth = 0;
-    size_t found = 0;
+    const float firstCut = showsSlabCaps(pending) ? firstCutOpen(pending, texels) : 0.0f;
     for (size_t i = 0; i < pending.candidates.size(); ++i) {
         const float depth = pickedDepthAt(texels, i);
         // Depth is reversed: the nearest is the largest, and 0 means that nothing was drawn.
         if (!(depth > 0) || depth < nearestDepth * (1 - kEqual)) continue;
+        prepare::PickedPoint point = prepare::pickedPoint(pending.camera, pending.size, pending.pixel, depth);
+        const std::optional<prepare::PickedPoint> cap = capOf(pending, texels, i, point);
+        const auto isBehind = [&](prepare::PickedPoint const& at) {
+            return prepare::isBehindSection(pending.section, pending.camera, at);
+        };
+        if (firstCut > 0 && frontOf(pending, i) && isBehind(point)) {
+            // Cut off, unless it shows where the ray enters it.
+            if (!cap || isBehind(*cap) || depth < firstCut * (1 - kEqual)) continue;
+        }
+        point = cap.value_or(point);
         nearestDepth = depth;
         nearest = pending.candidates[i];
-        found = i;
+        nearest.distanceMeters = point.distanceMeters;
+        nearest.positionWorld = point.positionWorld;
     }
-    if (!nearest) return {};
-    prepare::PickedPoint point = prepare::pickedPoint(pending.camera, pending.size, pending.pixel, nearestDepth);
-    if (showsBack(pending, texels, found))
-        point = prepare::pickedCap(pending.section, pending.camera, point).value_or(point);
-    nearest.distanceMeters = point.distanceMeters;
-    nearest.positionWorld = point.positionWorld;
     return nearest;
 }
 

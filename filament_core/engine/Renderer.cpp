@@ -370,7 +370,8 @@ struct Renderer::Impl final : engine::Dependent {
             withDebugViewOf(view, [&](View const& shown) { rehearse(scene, shown, target, requests); });
             engine.dispatches.makeExpected(engine.pending);
             if (view.quality.shadows != ShadowFilter::Off)
-                engine.pipelines.slot(passes::shadowSlot(view.quality, view.section.isUsed()));
+                engine.pipelines.slot(
+                        passes::shadowSlot(view.quality, view.section.isUsed(), prepare::cutsSlabs(view.section)));
             for (passes::FullScreenRequest const& request : requests) {
                 engine.compilations.add({ .material = request.material,
                                           .requests = { { .slot = request.slot, .isFullScreen = true } } },

@@ -27,9 +27,10 @@ TextureHandle ShadowTexture::create(DeviceTextureDesc const& desc) {
 }
 
 void ShadowTexture::use(prepare::ShadowPacket const& shadows) {
-    if (shadows.maps.empty() || (shadows.atlasSize == mSize && shadows.moments == mKind)) return;
+    const bool isAlike = shadows.atlasSize == mSize && shadows.moments == mKind && shadows.hasStencil == mHasStencil;
+    if (shadows.maps.empty() || isAlike) return;
     release();
-    mDepths = create({ .format = Format::D32F,
+    mDepths = create({ .format = shadows.hasStencil ? Format::D32FS8 : Format::D32F,
                        .usage = TextureUsage::Sampled | TextureUsage::DepthAttachment,
                        .width = shadows.atlasSize,
                        .height = shadows.atlasSize,
@@ -44,6 +45,7 @@ void ShadowTexture::use(prepare::ShadowPacket const& shadows) {
     }
     mSize = shadows.atlasSize;
     mKind = shadows.moments;
+    mHasStencil = shadows.hasStencil;
 }
 
 void ShadowTexture::forget(prepare::ShadowPacket const& shadows) {
@@ -59,6 +61,7 @@ void ShadowTexture::keep(prepare::ShadowPacket const& shadows) {
     mIdleFrames = 0;
     mHeld.size = shadows.atlasSize;
     mHeld.moments = shadows.moments;
+    mHeld.hasStencil = shadows.hasStencil;
     mHeld.maps.clear();
     for (prepare::ShadowMapPacket const& map : shadows.maps) mHeld.maps.push_back(map.held);
 }

@@ -2,8 +2,8 @@
 /// ShadowTexture: the textures of a renderer's shadow maps, depth and moments, and their contents.
 ///   Use     use() while a frame is planned, with the needs of its packet; forget() before that is recorded, keep()
 ///           once it is.
-///   Memory  one D32F texture of the last requested size, and one of moments if requested. They go when
-///           kIdleFrames frames had no shadows.
+///   Memory  one D32F texture of the last requested size, with a stencil for slabs, and one of moments if requested.
+///           They go when kIdleFrames frames had no shadows.
 ///   Thread  the app thread; creations are recorded into Engine::Impl::pending.
 ///   Fails   std::bad_alloc; the texture then holds nothing, and the next frame draws all maps.
 #pragma once
@@ -42,6 +42,7 @@ private:
     backend::TextureHandle mDepths, mMoments;
     uint32_t mSize = 0;
     prepare::ShadowMoments mKind = prepare::ShadowMoments::None;
+    bool mHasStencil = false;
     uint32_t mIdleFrames = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/ResolvePass.h"
 #include "filament_core/passes/SceneColorCopyPass.h"
+#include "filament_core/passes/SlabCaps.h"
 #include "filament_core/passes/SplatPass.h"
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -38,12 +39,14 @@ struct Chosen {
     PipelineHandle sky, disc;
     BindGroupHandle skyGroup;
     std::span<const BindGroupHandle> discGroups;
+    ChosenSlabCaps slabCaps;
 };
 
 /// What the pass declares besides its targets.
 struct ColorBlocks {
     ColorPart part;
     PassBlock target;
+    SlabBlocks slabs; ///< of the first part
     PassTextures textures;
     std::span<const PassBlock> discs; ///< parameters of the discs of suns
     bool hasDepth = false;            ///< of the prepass
@@ -119,11 +122,14 @@ DrawSlots slotsOf(PassContext& pass, FrameContext const& context, uint32_t slot)
 Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
-    const uint32_t slot = pipelines.slot(slotOf(context, pass.passLayout(), pass.subpass()));
+    const PassSlot at = slotOf(context, pass.passLayout(), pass.subpass());
+    const uint32_t slot = pipelines.slot(at);
     Chosen chosen;
     chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
     chosen.blendedDraws = blocks.part.blended;
     if (blocks.part.isFirst) {
+        chosen.slabCaps = chooseSlabCaps(pass, context, at, blocks.slabs, opaqueWithoutFade(context), blocks.textures,
+                                         view.variant, view.channels);
         chosen.opaqueDraws = blocks.hasDepth ? view.opaque : opaqueWithoutFade(context);
         chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slotsOf(pass, context, slot),
                                         chosen.opaqueDraws, view.variant, view.channels);
@@ -138,6 +144,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
 void recordScene(PassContext& pass, FrameContext const& context, Chosen const& chosen) {
     const ViewGroup view = viewOf(context, 0).group;
     const DrawContext draws = shadedDraws(context, chosen.passGroups);
+    recordSlabCaps(pass, draws, chosen.slabCaps);
     // The sky follows opaque objects, whose depth keeps it from pixels that they cover, and comes before transparent
     // ones, which it is seen through. Discs of suns add to the sky.
     recordDrawRanges(pass, draws, chosen.opaqueDraws, chosen.opaque);
@@ -159,11 +166,11 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
     const uint8_t samples = context.settings().samples;
     ColorAttachments made{ .color = targets.color,
                            .isWeighted = context.packet.demand.needs(prepare::Effect::MsaaResolve) };
-    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
-    const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
+    const bool isStencilUsed = needsStencil(context);
+    const Format depth = isStencilUsed ? Format::D32FS8 : Format::D32F;
     // Depths of the prepass have one sample a pixel and no stencil values. Where these are needed, and where only
     // effects asked for the prepass, the colour pass has a depth of its own.
-    made.hasDepth = targets.depth && samples == 1 && !hasStencil &&
+    made.hasDepth = targets.depth && samples == 1 && !isStencilUsed &&
                     context.settings().quality.depthPrepass != DepthPrepass::Off;
     made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, depth, samples, "depth");
     made.samples = samples == 1
@@ -193,7 +200,8 @@ void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachm
 }
 
 void addPart(FrameGraph& graph, FrameContext const& context, ColorAttachments const& to, std::string_view name,
-             ColorBlocks const& blocks) {
+             ColorBlocks blocks) {
+    if (blocks.part.isFirst && showsSlabCaps(context)) blocks.slabs = declareSlabCaps(context, blocks.target);
     graph.addPass(
             name,
             [&](PassBuilder& pass) {

@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/SlabCaps.h"
 #include "filament_core/prepare/DebugViews.h"
 
 namespace filament_core::passes {
@@ -15,6 +16,7 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 
 struct ChosenSurfaces {
+    ChosenSlabCaps slabCaps;
     ChosenDraws opaque, blended;
 };
 
@@ -31,16 +33,19 @@ struct DebugSurfaces {
     TextureId resolvedDepth{};
 
     bool areNumbered() const { return debug == DebugSlot::Edges || debug == DebugSlot::Triangles; }
+    bool mayShowCaps() const { return debug == DebugSlot::Values || debug == DebugSlot::Coverage; }
 };
 
 ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSurfaces const& surfaces,
-                              PassBlock target) {
+                              PassBlock target, SlabBlocks const& slabs) {
     PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.debug = surfaces.debug;
     if (surfaces.areNumbered()) slot.edges = context.resources.edges;
     prepare::ViewPacket const& view = context.packet.mainView();
-    if (surfaces.isOpaque) return { chooseDraws(pass, context, slot, target, opaqueWithoutFade(context)), {} };
-    return { chooseDraws(pass, context, slot, target, view.opaque),
+    const ChosenSlabCaps slabCaps = chooseSlabCaps(pass, context, slot, slabs, opaqueWithoutFade(context));
+    if (surfaces.isOpaque)
+        return { slabCaps, chooseDraws(pass, context, slot, target, opaqueWithoutFade(context)), {} };
+    return { slabCaps, chooseDraws(pass, context, slot, target, view.opaque),
              chooseDraws(pass, context, slot, target, view.blended) };
 }
 
@@ -54,12 +59,15 @@ void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenSurfac
                                  context.settings().quality.textureFilter,
                                  {},
                                  !context.packet.numbered.empty() };
+        if (list == &chosen.opaque) recordSlabCaps(pass, draws, chosen.slabCaps);
         recordDrawRanges(pass, draws, list->draws, list->pipelines);
     }
 }
 
 void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces const& to) {
     const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, to.shown, to.samples);
+    const bool hasSlabs = to.mayShowCaps() && showsSlabCaps(context);
+    const SlabBlocks slabs = hasSlabs ? declareSlabCaps(context, target) : SlabBlocks{};
     graph.addPass(
             to.name,
             [&](PassBuilder& pass) {
@@ -69,7 +77,9 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces c
                     depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
                 pass.writeDepth(to.depth, depth);
             },
-            [of = &context, to, target](PassContext& pass) { return chooseSurfaces(pass, *of, to, target); },
+            [of = &context, to, target, slabs](PassContext& pass) {
+                return chooseSurfaces(pass, *of, to, target, slabs);
+            },
             [of = &context](PassContext& pass, ChosenSurfaces const& chosen) { recordSurfaces(pass, *of, chosen); });
 }
 
@@ -81,8 +91,7 @@ DebugSlot slotOf(DebugView shown) {
 /// With samples of its own; `targets` has the mean.
 void addCoveragePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     const uint8_t samples = context.settings().samples;
-    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
-    const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
+    const Format depth = needsStencil(context) ? Format::D32FS8 : Format::D32F;
     targets.sceneDepth = targets.depth = createLike(graph, targets.color, depth, 1, "depth");
     addSurfaces(
             graph, context,
@@ -114,10 +123,10 @@ void addTriangleNumbers(FrameGraph& graph, FrameContext const& context, FrameTar
 void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (context.settings().samples > 1) return addCoveragePass(graph, context, targets);
     const DebugView shown = context.settings().debugView;
-    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
-    const bool hasDepth = targets.depth && !hasStencil;
+    const bool isStencilUsed = needsStencil(context);
+    const bool hasDepth = targets.depth && !isStencilUsed;
     if (!hasDepth)
-        targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
+        targets.depth = createLike(graph, targets.color, isStencilUsed ? Format::D32FS8 : Format::D32F, 1, "depth");
     targets.sceneDepth = targets.depth;
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
@@ -154,7 +163,7 @@ TextureId addNormalsPass(FrameGraph& graph, FrameContext const& context, uint2 s
                 { .name = "normals",
                   .shown = DebugView::Normals,
                   .color = stored,
-                  .depth = create(Format::D32F, "depth of normals"),
+                  .depth = create(needsStencil(context) ? Format::D32FS8 : Format::D32F, "depth of normals"),
                   .isOpaque = true });
     constexpr std::string_view kInputs[] = { "value" };
     const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(DebugView::Normals) },

@@ -32,17 +32,26 @@ std::span<const prepare::DrawCall> fadingDepths(FrameContext const& context) {
     return draws;
 }
 
-ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
-    const PassSlot at = depthSlot(context.settings(), depthOfViewKey(context.shading));
+struct ChosenDepths {
+    ChosenSlabCaps slabCaps;
+    ChosenDraws surfaces;
+};
+
+ChosenDepths chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target, SlabBlocks const& slabs) {
+    PassSlot at = depthSlot(context.settings(), depthOfViewKey(context.shading));
+    if (slabs.first.bytes > 0) at.layout.depthFormat = Format::D32FS8;
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
-    return chooseDraws(pass, context, at, target, fadingDepths(context));
+    return { chooseSlabCaps(pass, context, at, slabs, opaqueWithoutFade(context)),
+             chooseDraws(pass, context, at, target, fadingDepths(context)) };
 }
 
-void recordDepths(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
+void recordDepths(PassContext& pass, FrameContext const& context, ChosenDepths const& chosen) {
     const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
+    ChosenDraws const& surfaces = chosen.surfaces;
+    const DrawContext draws{ view.group, surfaces.passGroups, context.resources.instanceIds, context.deformations,
                              context.settings().quality.textureFilter };
-    recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
+    recordSlabCaps(pass, draws, chosen.slabCaps);
+    recordDrawRanges(pass, draws, surfaces.draws, surfaces.pipelines);
 }
 
 /// Materials read distances; full-screen passes take the depths themselves.
@@ -100,18 +109,20 @@ PassSlot depthSlot(prepare::FrameSettings const& settings, ShadingKey shading) {
 }
 
 TextureId addDepthOfView(FrameGraph& graph, FrameContext const& context, uint2 size, std::string_view name) {
-    const framegraph::GraphTextureDesc desc{ .width = size.x, .height = size.y, .format = Format::D32F, .name = name };
+    const bool hasSlabs = showsSlabCaps(context);
+    const Format format = hasSlabs ? Format::D32FS8 : Format::D32F;
+    const framegraph::GraphTextureDesc desc{ .width = size.x, .height = size.y, .format = format, .name = name };
     const TextureId depth = graph.createTexture(desc);
+    const PassBlock target = declareTarget(context, desc);
+    const SlabBlocks slabs = hasSlabs ? declareSlabCaps(context, target) : SlabBlocks{};
     graph.addPass(
             name,
             [&](PassBuilder& pass) {
                 const bool isReversed = context.settings().quality.depthRange == DepthRange::Reversed;
                 pass.writeDepth(depth, { .clear = isReversed ? 0.0f : 1.0f });
             },
-            [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
-                return chooseDepths(pass, *of, target);
-            },
-            [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDepths(pass, *of, chosen); });
+            [of = &context, target, slabs](PassContext& pass) { return chooseDepths(pass, *of, target, slabs); },
+            [of = &context](PassContext& pass, ChosenDepths const& chosen) { recordDepths(pass, *of, chosen); });
     return depth;
 }
 

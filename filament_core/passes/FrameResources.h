@@ -47,7 +47,8 @@ struct FrameResources {
     /// Leave depths of levels of detail that fade, by their front faces and by both; null: none fades.
     std::array<scene::MaterialInstance const*, 2> levelFade{};
     scene::Material const* skybox = nullptr;    ///< full-screen material; null: the scene has no sky
-    scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
+    scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles, and all but caps of slabs;
+                                                ///< null: unused
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
     scene::Material const* debugView = nullptr; ///< full-screen material; null: no debug view
     scene::Material const* edges = nullptr;     ///< whose fragment stage numbers triangles; null: none is asked for

@@ -30,6 +30,10 @@ public:
     void begin();
     /// Copies the bytes. At most DeviceLimits::maxUniformBlockBytes.
     PassBlock add(std::span<const std::byte> bytes);
+    /// Until the next add().
+    std::span<const std::byte> bytesOf(PassBlock block) const {
+        return std::span(mBytes).subspan(block.offset, block.bytes);
+    }
     void upload(backend::CommandBuffer& commands);
     backend::BindGroupEntry entry(uint8_t binding, PassBlock block) const;
     void destroy(backend::CommandBuffer& commands);

@@ -7,6 +7,7 @@
 #include "shaders/interface/ShaderInterface.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace filament_core::passes {
 
@@ -70,6 +71,15 @@ PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextu
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel) {
     shader::PassUniforms block = uniformsOf(context, float2(static_cast<float>(size)));
     block.raster.y = static_cast<float>(channel);
+    return context.blocks->add(std::as_bytes(std::span(&block, 1)));
+}
+
+PassBlock declareSectionPart(FrameContext const& context, PassBlock of, SectionPart part) {
+    shader::PassUniforms block;
+    std::memcpy(&block, context.blocks->bytesOf(of).data(), sizeof block);
+    block.raster.y = static_cast<float>(part);
+    // Drawn by variants for debug views where a pixel has several samples: with the alpha that masks cover them by.
+    if (part == SectionPart::FirstSurfaces) block.raster.z = static_cast<float>(DebugView::Coverage);
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

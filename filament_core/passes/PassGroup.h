@@ -28,6 +28,12 @@ PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextu
 /// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);
 
+/// What of surfaces that section planes cut is drawn (SlabCaps.h): negative numbers in the place of colour channels, as
+/// shaders/material/surface/section.glsl has them.
+enum class SectionPart : int8_t { FirstSurfaces = -1, SlabCaps = -2 };
+/// The block of a pass with that instead of what is left.
+PassBlock declareSectionPart(FrameContext const& context, PassBlock of, SectionPart part);
+
 /// What materials read of shadow maps; none by default.
 struct PassShadows {
     framegraph::TextureId maps;

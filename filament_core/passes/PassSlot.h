@@ -42,7 +42,7 @@ struct PassSlot {
     bool equalsDepth = false;               ///< surfaces are drawn where the prepass left their depth, and nowhere else
     bool cutsSections = false;              ///< materials with section planes show both sides: caps are on back faces
     bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
-    std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own
+    std::optional<StencilState> stencil{};  ///< of what is drawn there, without references: SlabCaps.h, PipelineCache
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 

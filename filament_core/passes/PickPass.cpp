@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/PickPass.h"
 
-#include "filament_core/passes/ChosenDraws.h"
+#include "filament_core/passes/SlabCaps.h"
 
 namespace filament_core::passes {
 namespace {
@@ -49,7 +49,9 @@ void recordPick(PassContext& pass, FrameContext const& context, ChosenDraws cons
 
 void addPickPass(FrameGraph& graph, FrameContext const& context, framegraph::TextureId depths, uint2 size,
                  uint2 pixel) {
-    const PassBlock target = declareTarget(context, { .width = size.x, .height = size.y });
+    PassBlock target = declareTarget(context, { .width = size.x, .height = size.y });
+    // Each object has its first surface, wherever that is: which of them are seen is known when all are (Picker.cpp).
+    if (showsSlabCaps(context)) target = declareSectionPart(context, target, SectionPart::FirstSurfaces);
     graph.addPass(
             "pick", [&](PassBuilder& pass) { pass.writeDepth(depths, { .clear = 0.0f }); },
             [of = &context, target](PassContext& pass) {

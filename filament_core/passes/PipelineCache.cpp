@@ -93,6 +93,7 @@ bool needsNoLight(shader::TransparencyTerm term) {
 }
 
 bool hasStencilTest(PassSlot const& slot, scene::InstanceRaster const& raster) {
+    if (slot.stencil || slot.depthOnly) return false; // of passes with values of their own
     return raster.stencil && hasStencil(slot.layout.depthFormat) && slot.layout.subpasses[slot.subpass].usesDepth;
 }
 

@@ -47,10 +47,47 @@ PipelineDesc leavingMotion(PipelineDesc desc, PassSlot const& slot) {
     return desc;
 }
 
+StencilOp stencilOp(StencilOperation operation) {
+    static_assert(static_cast<int>(StencilOperation::Keep) == static_cast<int>(StencilOp::Keep) &&
+                  static_cast<int>(StencilOperation::Zero) == static_cast<int>(StencilOp::Zero) &&
+                  static_cast<int>(StencilOperation::Replace) == static_cast<int>(StencilOp::Replace) &&
+                  static_cast<int>(StencilOperation::IncrementClamp) == static_cast<int>(StencilOp::IncrementClamp) &&
+                  static_cast<int>(StencilOperation::DecrementClamp) == static_cast<int>(StencilOp::DecrementClamp) &&
+                  static_cast<int>(StencilOperation::Invert) == static_cast<int>(StencilOp::Invert) &&
+                  static_cast<int>(StencilOperation::IncrementWrap) == static_cast<int>(StencilOp::IncrementWrap) &&
+                  static_cast<int>(StencilOperation::DecrementWrap) == static_cast<int>(StencilOp::DecrementWrap));
+    return static_cast<StencilOp>(operation);
+}
+
+CompareOp compareOp(StencilTest test) {
+    static constexpr std::array kCompares{ CompareOp::Never,   CompareOp::Less,     CompareOp::LessEqual,
+                                           CompareOp::Equal,   CompareOp::NotEqual, CompareOp::GreaterEqual,
+                                           CompareOp::Greater, CompareOp::Always };
+    return kCompares[static_cast<size_t>(test)];
+}
+
+backend::StencilFace stencilFace(filament_core::StencilFace const& face) {
+    return { .compare = compareOp(face.test),
+             .fail = stencilOp(face.onFail),
+             .depthFail = stencilOp(face.onDepthFail),
+             .pass = stencilOp(face.onPass),
+             .readMask = face.readMask,
+             .writeMask = face.writeMask };
+}
+
+void useStencil(PipelineDesc& desc, PassSlot const& slot) {
+    if (!slot.stencil) return;
+    desc.depthStencil.stencilTest = true;
+    desc.depthStencil.front = stencilFace(slot.stencil->front);
+    desc.depthStencil.back = stencilFace(slot.stencil->back);
+}
+
 // The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they
 // enclose.
-PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raster) {
-    desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+PipelineDesc leavingShadow(PipelineDesc desc, PassSlot const& slot, scene::InstanceRaster const& raster) {
+    desc.depthStencil = { .depthCompare = slot.equalsDepth ? CompareOp::Equal : CompareOp::GreaterEqual,
+                          .depthWrite = !drawsNothing(raster) };
+    useStencil(desc, slot);
     return desc;
 }
 
@@ -161,34 +198,6 @@ void usePass(PipelineDesc& desc, shader::TransparencyMode transparency, prepare:
     }
 }
 
-StencilOp stencilOp(StencilOperation operation) {
-    static_assert(static_cast<int>(StencilOperation::Keep) == static_cast<int>(StencilOp::Keep) &&
-                  static_cast<int>(StencilOperation::Zero) == static_cast<int>(StencilOp::Zero) &&
-                  static_cast<int>(StencilOperation::Replace) == static_cast<int>(StencilOp::Replace) &&
-                  static_cast<int>(StencilOperation::IncrementClamp) == static_cast<int>(StencilOp::IncrementClamp) &&
-                  static_cast<int>(StencilOperation::DecrementClamp) == static_cast<int>(StencilOp::DecrementClamp) &&
-                  static_cast<int>(StencilOperation::Invert) == static_cast<int>(StencilOp::Invert) &&
-                  static_cast<int>(StencilOperation::IncrementWrap) == static_cast<int>(StencilOp::IncrementWrap) &&
-                  static_cast<int>(StencilOperation::DecrementWrap) == static_cast<int>(StencilOp::DecrementWrap));
-    return static_cast<StencilOp>(operation);
-}
-
-CompareOp compareOp(StencilTest test) {
-    static constexpr std::array kCompares{ CompareOp::Never,   CompareOp::Less,     CompareOp::LessEqual,
-                                           CompareOp::Equal,   CompareOp::NotEqual, CompareOp::GreaterEqual,
-                                           CompareOp::Greater, CompareOp::Always };
-    return kCompares[static_cast<size_t>(test)];
-}
-
-backend::StencilFace stencilFace(filament_core::StencilFace const& face) {
-    return { .compare = compareOp(face.test),
-             .fail = stencilOp(face.onFail),
-             .depthFail = stencilOp(face.onDepthFail),
-             .pass = stencilOp(face.onPass),
-             .readMask = face.readMask,
-             .writeMask = face.writeMask };
-}
-
 // The geometry's own attributes, then the instance index in the next buffer slot.
 VertexLayout withInstanceIndex(VertexLayout layout) {
     FILAMENT_ASSERT(layout.bufferCount < kMaxVertexBuffers && layout.attributeCount < kMaxVertexAttributes,
@@ -209,7 +218,7 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
         desc.vertices = withInstanceIndex(geometry->vertices);
         desc.raster.topology = geometry->topology;
     }
-    if (slot.isShadowMap) return leavingShadow(desc, raster);
+    if (slot.isShadowMap) return leavingShadow(desc, slot, raster);
     if (slot.motionOnly) return leavingMotion(desc, slot);
     if (slot.isPick) return leavingPick(desc, raster);
     if (slot.debug == DebugSlot::Edges) return leavingEdges(desc, raster, slot.depthRange);
@@ -217,12 +226,8 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.equalsDepth) desc.depthStencil.depthCompare = CompareOp::Equal;
+    useStencil(desc, slot);
     if (slot.depthOnly) return desc;
-    if (slot.stencil) {
-        desc.depthStencil.stencilTest = true;
-        desc.depthStencil.front = stencilFace(slot.stencil->front);
-        desc.depthStencil.back = stencilFace(slot.stencil->back);
-    }
     BlendState blend =
             slot.debug == DebugSlot::None ? blendState(material.package) : debugBlendState(slot.debug, material);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
@@ -247,6 +252,7 @@ PipelineDesc fullScreenStates(PassSlot const& slot, scene::Material const& mater
     raster.cullingDisabled = true;
     PipelineDesc desc = statesOf(slot, material, raster, nullptr, false);
     if (slot.depthOnly) desc.depthStencil = depthState(raster, slot.depthRange);
+    useStencil(desc, slot);
     return desc;
 }
 

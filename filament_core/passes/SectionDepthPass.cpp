@@ -4,8 +4,6 @@
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenPass.h"
 
-#include <algorithm>
-
 namespace filament_core::passes {
 namespace {
 
@@ -21,8 +19,6 @@ constexpr auto kCapDepth = static_cast<DebugView>(63); // kViewCapDepth of debug
 constexpr std::string_view kDepthCopyInputs[] = { "picture" };
 constexpr FullScreenParameter kDepthCopyValues[] = { { "offset", ParameterType::Int2 } };
 
-bool isCutOpen(DrawCall const& draw) { return draw.material->material->package.sectionPlanes; }
-
 void addDepthCopy(FrameGraph& graph, FrameContext const& context, TextureId depth, TextureId target) {
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = depth } };
     const std::array values{ FullScreenValue{ "offset", int2(0) } };
@@ -36,26 +32,30 @@ void addDepthCopy(FrameGraph& graph, FrameContext const& context, TextureId dept
               .target = target });
 }
 
-ChosenDraws chooseCaps(PassContext& pass, FrameContext const& context, PassBlock target) {
+struct ChosenCaps {
+    ChosenDraws caps, slabCaps;
+};
+
+/// `slabs`: empty: there are none.
+ChosenCaps chooseCaps(PassContext& pass, FrameContext const& context, PassBlock target, PassBlock slabs) {
     PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.debug = DebugSlot::Values;
     slot.equalsDepth = true;
-    const std::span<DrawCall> draws = context.arena->copy(opaqueWithoutFade(context));
-    const auto end = std::remove_if(draws.begin(), draws.end(), [](DrawCall const& draw) { return !isCutOpen(draw); });
-    return chooseDraws(pass, context, slot, target, draws.first(static_cast<size_t>(end - draws.begin())));
+    const std::span<const DrawCall> draws = cutOpen(context, opaqueWithoutFade(context));
+    ChosenCaps chosen{ chooseDraws(pass, context, slot, target, draws), {} };
+    if (slabs.bytes > 0) chosen.slabCaps = chooseDraws(pass, context, slot, slabs, draws);
+    return chosen;
 }
 
-void recordCaps(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
-    const DrawContext draws{ viewOf(context, 0).group, chosen.passGroups, context.resources.instanceIds,
-                             context.deformations, context.settings().quality.textureFilter };
-    recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
+void recordCaps(PassContext& pass, FrameContext const& context, ChosenCaps const& chosen) {
+    for (ChosenDraws const* list : { &chosen.caps, &chosen.slabCaps }) {
+        const DrawContext draws{ viewOf(context, 0).group, list->passGroups, context.resources.instanceIds,
+                                 context.deformations, context.settings().quality.textureFilter };
+        recordDrawRanges(pass, draws, list->draws, list->pipelines);
+    }
 }
 
 } // namespace
-
-bool showsCaps(FrameContext const& context) {
-    return context.settings().cutsSections && std::ranges::any_of(context.packet.mainView().opaque, isCutOpen);
-}
 
 TextureId addSectionDepthPass(FrameGraph& graph, FrameContext const& context, TextureId depth) {
     framegraph::GraphTextureDesc desc = graph.texture(depth).desc;
@@ -63,16 +63,17 @@ TextureId addSectionDepthPass(FrameGraph& graph, FrameContext const& context, Te
     desc = { .width = size.x, .height = size.y, .format = Format::R32F, .name = "depth of sections" };
     const TextureId target = graph.createTexture(desc);
     addDepthCopy(graph, context, depth, target);
+    const PassBlock caps = declareDebugTarget(context, desc, kCapDepth);
+    const PassBlock slabs =
+            showsSlabCaps(context) ? declareSectionPart(context, caps, SectionPart::SlabCaps) : PassBlock{};
     graph.addPass(
             "depth of caps",
             [&](PassBuilder& pass) {
                 pass.writeColor(0, target, {});
                 pass.writeDepth(depth, {}); // tested; equal depths are written
             },
-            [of = &context, block = declareDebugTarget(context, desc, kCapDepth)](PassContext& pass) {
-                return chooseCaps(pass, *of, block);
-            },
-            [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordCaps(pass, *of, chosen); });
+            [of = &context, caps, slabs](PassContext& pass) { return chooseCaps(pass, *of, caps, slabs); },
+            [of = &context](PassContext& pass, ChosenCaps const& chosen) { recordCaps(pass, *of, chosen); });
     return target;
 }
 

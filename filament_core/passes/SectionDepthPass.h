@@ -3,16 +3,14 @@
 ///   In      the depth of a view, in which a cap has the depth of the back face that it is drawn on (section_api.glsl).
 ///   Out     the same depths in R32F, with those of caps in their place.
 ///   Draws   a copy, then the opaque surfaces that section planes cut, where that depth is theirs.
-///   Skips   views without caps: showsCaps().
+///   Skips   views without caps: showsCaps() of SlabCaps.h.
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
+#include "filament_core/passes/SlabCaps.h"
 
 namespace filament_core::passes {
-
-/// Whether an opaque surface of the main view may be closed by caps.
-bool showsCaps(FrameContext const& context);
 
 /// `depth`: with one sample a pixel.
 framegraph::TextureId addSectionDepthPass(framegraph::FrameGraph& graph, FrameContext const& context,

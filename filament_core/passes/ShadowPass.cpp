@@ -5,6 +5,7 @@
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/ShadowMoments.h"
+#include "filament_core/passes/SlabCaps.h"
 
 namespace filament_core::passes {
 namespace {
@@ -21,6 +22,8 @@ struct DrawnMap {
     ShadowTile tile;
     uint32_t view = 0; ///< of the packet
     PassBlock target;
+    SlabBlocks slabs;
+    ChosenSlabCaps slabCaps;
     std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups; ///< by PassKind
     std::span<const PipelineHandle> pipelines;
 };
@@ -28,6 +31,9 @@ struct DrawnMap {
 struct ChosenShadow {
     PipelineHandle farDepth; ///< empties a tile; none: all of the atlas is cleared
 };
+
+/// As ShadowTexture makes it.
+Format depthFormat(bool hasStencil) { return hasStencil ? Format::D32FS8 : Format::D32F; }
 
 std::span<DrawnMap> drawnMaps(FrameContext const& context) {
     prepare::ShadowPacket const& shadows = context.packet.shadows;
@@ -37,9 +43,11 @@ std::span<DrawnMap> drawnMaps(FrameContext const& context) {
         if (map.view == prepare::kKeptMap) continue;
         for (uint32_t channel = 0; channel < map.channels; ++channel) {
             const ShadowTile tile = prepare::channelTile(map, channel);
-            drawn[count++] = { .tile = tile,
-                               .view = map.view,
-                               .target = declareShadowTarget(context, tile.size, map.channels > 1 ? channel + 1 : 0) };
+            DrawnMap& next = drawn[count++];
+            next.tile = tile;
+            next.view = map.view;
+            next.target = declareShadowTarget(context, tile.size, map.channels > 1 ? channel + 1 : 0);
+            if (shadows.hasStencil) next.slabs = declareSlabCaps(context, next.target);
         }
     }
     return drawn;
@@ -47,13 +55,15 @@ std::span<DrawnMap> drawnMaps(FrameContext const& context) {
 
 ChosenShadow choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap> maps) {
     PipelineSource const& pipelines = context.resources.pipelines;
-    const PassSlot at = shadowSlot(context.settings().quality, context.settings().cutsSections);
+    prepare::FrameSettings const& settings = context.settings();
+    const PassSlot at = shadowSlot(settings.quality, settings.cutsSections, settings.cutsSlabs);
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "shadow maps are a pass of their own");
     const uint32_t slot = pipelines.slot(at);
     for (DrawnMap& map : maps) {
+        const std::span<const prepare::DrawCall> casters = context.packet.views[map.view].opaque;
         map.passGroups = surfaceGroups(pass, context, map.target);
-        map.pipelines =
-                choosePipelines(pass, *context.arena, pipelines, slot, context.packet.views[map.view].opaque, 0);
+        map.pipelines = choosePipelines(pass, *context.arena, pipelines, slot, casters, 0);
+        map.slabCaps = chooseSlabCaps(pass, context, at, map.slabs, casters);
     }
     ChosenShadow chosen;
     if (context.packet.shadows.keepsAtlas)
@@ -79,6 +89,7 @@ void recordMaps(PassContext& pass, FrameContext const& context, std::span<const 
                              map.passGroups[static_cast<size_t>(shader::PassKind::Unlit)]);
         const DrawContext draws{ view.group, map.passGroups, context.resources.instanceIds, context.deformations,
                                  context.settings().quality.textureFilter };
+        recordSlabCaps(pass, draws, map.slabCaps);
         recordDrawRanges(pass, draws, view.packet.opaque, map.pipelines);
     }
 }
@@ -101,8 +112,8 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, framegraph::Te
 
 } // namespace
 
-PassSlot shadowSlot(Quality const& quality, bool cutsSections) {
-    PassSlot slot{ .layout = { .depthFormat = Format::D32F },
+PassSlot shadowSlot(Quality const& quality, bool cutsSections, bool cutsSlabs) {
+    PassSlot slot{ .layout = { .depthFormat = depthFormat(cutsSlabs) },
                    .shading = depthShadingKey(quality.coloredShadows),
                    .depthOnly = true,
                    .isShadowMap = true,
@@ -115,10 +126,13 @@ void addShadowPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
     prepare::ShadowPacket const& shadows = context.packet.shadows;
     if (shadows.maps.empty()) return;
     using framegraph::InitialContents;
-    targets.shadows = targets.shadowDepths = graph.importTexture(
-            context.resources.shadowAtlas,
-            { .width = shadows.atlasSize, .height = shadows.atlasSize, .format = Format::D32F, .name = "shadow maps" },
-            shadows.keepsAtlas ? InitialContents::Keep : InitialContents::Undefined);
+    targets.shadows = targets.shadowDepths =
+            graph.importTexture(context.resources.shadowAtlas,
+                                { .width = shadows.atlasSize,
+                                  .height = shadows.atlasSize,
+                                  .format = depthFormat(shadows.hasStencil),
+                                  .name = "shadow maps" },
+                                shadows.keepsAtlas ? InitialContents::Keep : InitialContents::Undefined);
     if (shadows.drawn > 0) addDepthPass(graph, context, targets.shadows);
     addShadowMoments(graph, context, targets);
 }

@@ -11,7 +11,7 @@
 namespace filament_core::passes {
 
 /// Where materials leave depth alone.
-PassSlot shadowSlot(Quality const& quality, bool cutsSections);
+PassSlot shadowSlot(Quality const& quality, bool cutsSections, bool cutsSlabs);
 
 /// Without shadow maps in the packet: nothing. Otherwise imports the atlas as targets.shadowDepths, with what filters
 /// read of it as targets.shadows, and declares the pass if

@@ -134,8 +134,14 @@ FrameSettings resolve(ViewInput const& main) {
     const bool isSampledOnce = settings.samples == 1 && settings.quality.antiAliasing != AntiAliasing::Sraa;
     settings.cullsOccluded = main.occlusionCulling && isImage && isSampledOnce && isPrecise;
     settings.cutsSections = main.section.isUsed();
+    settings.cutsSlabs = cutsSlabs(main.section);
     settings.cullsCasters = main.occlusionCulling && main.quality.cameraRelative;
     return settings;
+}
+
+bool cutsSlabs(SectionPlanes const& section) {
+    return section.caps && section.cut == SectionCut::Each &&
+           std::ranges::count_if(section.planes, SectionPlanes::isPlane) > 1;
 }
 
 } // namespace filament_core::prepare

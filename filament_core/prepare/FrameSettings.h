@@ -30,6 +30,7 @@ struct FrameSettings {
     bool composesAnyOrder = false;   ///< transparent objects, if they may overlap
     bool cullsOccluded = false;      ///< hides opaque objects behind others; debug views show what it leaves out
     bool cullsCasters = false;       ///< hides casters behind others from the lights of shadow maps
+    bool cutsSlabs = false;          ///< cutsSlabs() of View::section
     bool cutsSections = false;       ///< View::section has a plane: materials with sections show their back faces, too
     bool lightsFog = false;          ///< lamps and shadows of the sun light the fog, if there are any
     bool tracksMotion = false;       ///< an effect of the image looks at the last one, so that it matters what moved
@@ -50,5 +51,8 @@ struct FrameSettings {
 ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents);
 
 FrameSettings resolve(ViewInput const& main);
+
+/// Whether rays may leave what is kept without a surface, so that caps are found by what is cut off: SlabCaps.h.
+bool cutsSlabs(SectionPlanes const& section);
 
 } // namespace filament_core::prepare

@@ -184,6 +184,17 @@ std::optional<PickedPoint> pickedCap(SectionPlanes const& section, Camera const&
     return PickedPoint{ distance, cap };
 }
 
+bool isBehindSection(SectionPlanes const& section, Camera const& camera, PickedPoint const& point) {
+    constexpr double kSlack = 4e-6; // kSectionSlack
+    const double3 fromEye = point.positionWorld - camera.position();
+    const double3 along = camera.lens.isOrthographic() ? -double3(camera.worldFromView[2]) : fromEye;
+    const double slack = kSlack * (std::abs(fromEye.x) + std::abs(fromEye.y) + std::abs(fromEye.z));
+    return std::ranges::any_of(section.planes, [&](double4 const& plane) {
+        if (!SectionPlanes::isPlane(plane) || dot(double3(plane), along) > 0) return false;
+        return dot(double3(plane), point.positionWorld) + plane.w < slack * glm::length(double3(plane));
+    });
+}
+
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable) {
     scene::Attachments<RenderableObject> const& attached = scene.atNodes.renderables;
     if (!attached.isAttached(renderable)) return 0;

@@ -42,6 +42,10 @@ PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float dep
 /// enters nowhere before that, or only in front of the near plane.
 std::optional<PickedPoint> pickedCap(SectionPlanes const& section, Camera const& camera, PickedPoint const& point);
 
+/// Whether the point lies behind one of the planes that the ray to it may leave what is kept through; of
+/// SectionCut::Each.
+bool isBehindSection(SectionPlanes const& section, Camera const& camera, PickedPoint const& point);
+
 /// Among the renderables of its node, in the order in which they were added; 0 without a node.
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable);
 

@@ -203,7 +203,9 @@ private:
         const PlacedShadowMaps placed = placeShadowMaps(mArena, requests, mHeld, atlasSizeForBytes(budget, moments));
         out.packet.atlasSize = placed.atlasSize;
         out.packet.moments = moments;
-        out.packet.keepsAtlas = placed.atlasSize == mHeld.size && moments == mHeld.moments;
+        out.packet.hasStencil = mSettings.cutsSlabs;
+        out.packet.keepsAtlas =
+                placed.atlasSize == mHeld.size && moments == mHeld.moments && out.packet.hasStencil == mHeld.hasStencil;
         const auto isLamps = [](Candidate const& candidate) { return isPerspective(candidate.fitted); };
         if (moments != ShadowMoments::None && std::ranges::any_of(mCandidates.first(mCount), isLamps))
             mWorld = sceneInLightSpace(mJobs, mArena, mScene.renderables, double3x3(1.0), mView.visibleLayers);

@@ -67,6 +67,7 @@ struct HeldShadowMap {
 struct ShadowAtlas {
     uint32_t size = 0; ///< texels of a side
     ShadowMoments moments = ShadowMoments::None;
+    bool hasStencil = false;
     std::vector<HeldShadowMap> maps;
 };
 
@@ -83,6 +84,7 @@ struct ShadowMapPacket {
 struct ShadowPacket {
     uint32_t atlasSize = 0; ///< texels of a side
     ShadowMoments moments = ShadowMoments::None;
+    bool hasStencil = false; ///< the maps of slabs are drawn with one: SlabCaps.h
     bool keepsAtlas = false; ///< the atlas of the frame before is used; false: nothing is in it yet
     std::span<const ShadowMapPacket> maps;
     shader::ShadowUniforms const* uniforms = nullptr; ///< as shaders read them, parallel to `maps`; null: no maps

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Section planes (View::section), after the material's own code: what is cut off, and caps. section_api.glsl explains.
 
+// Caps where rays leave what is left inside of a solid have draws of their own (passes/SlabCaps.h).
+const float kFirstSurfaces = -1.0; // all that lies behind where rays enter what is left
+const float kSlabCaps = -2.0;      // of those the back faces behind what is left: they show caps
+
+bool isSectionPart(float part) { return ofFragment(passUniforms.raster.y) == part; }
+
 bool section_isCut = false;         // nothing of the fragment is left
 int section_samples = -1;           // those that are left
 highp vec3 section_normal;          // of a cap, towards what is cut off
@@ -11,9 +17,11 @@ bool isCorner() { return ofFragment(frameUniforms.section.y) > 0.0; }
 
 const highp float kSectionSlack = 4e-6; // of the distance from the camera: more than positions are rounded by
 
+const int kEntered = 1, kLeft = 2; // planes whose front rays enter, and leave; the sum: all
+
 // Metres in front of what cuts; negative: cut off. A face in a plane is on the side that its solid is on: it is left
 // where rays enter what is left, and cut off where they leave it.
-highp float sectionDistance(highp vec3 point) {
+highp float distanceToSection(int planes, highp vec3 point) {
     int count = sectionCount();
     bool corner = isCorner();
     highp float nearest = count > 0 && corner ? -1e30 : 1e30;
@@ -21,17 +29,26 @@ highp float sectionDistance(highp vec3 point) {
     for (int i = 0; i < count; ++i) {
         highp vec4 plane = frameUniforms.sectionPlanes[i];
         highp float here = dot(plane.xyz, point) + plane.w;
-        here += dot(plane.xyz, shading_view) < 0.0 ? slack : -slack;
+        bool isEntered = dot(plane.xyz, shading_view) < 0.0;
+        here += isEntered ? slack : -slack;
+        if ((planes & (isEntered ? kEntered : kLeft)) == 0) continue;
         nearest = corner ? max(nearest, here) : min(nearest, here);
     }
     return nearest;
 }
 
+// Those that cut what is drawn.
+int cuttingPlanes() {
+    if (isSectionPart(kFirstSurfaces)) return kEntered;
+    return isSectionPart(kSlabCaps) ? kLeft : kEntered + kLeft;
+}
+
 #if !defined(DEPTH_RUNS_MATERIAL)
 
-// Bit s: sample s is left. The samples of a pixel lie where Vulkan has them (1.3, "Multisampling", standard sample
-// locations of four samples); the middle of the pixel is 0.
-int samplesLeft(highp vec3 point) {
+// Bit s: sample s is in front of the planes; all bits if a pixel has one. The samples of a pixel lie where Vulkan has
+// them (1.3, "Multisampling", standard sample locations of four samples); the middle of the pixel is 0.
+int samplesLeft(int planes, highp vec3 point) {
+    if (ofFragment(passUniforms.raster.x) <= 1.0) return distanceToSection(planes, point) < 0.0 ? 0 : -1;
     highp vec2 places[4];
     places[0] = vec2(-0.125, -0.375);
     places[1] = vec2(0.375, -0.125);
@@ -39,10 +56,13 @@ int samplesLeft(highp vec3 point) {
     places[3] = vec2(0.125, 0.375);
     int left = 0;
     for (int i = 0; i < 4; ++i) {
-        if (sectionDistance(point + section_right * places[i].x + section_down * places[i].y) >= 0.0) left |= 1 << i;
+        highp vec3 place = point + section_right * places[i].x + section_down * places[i].y;
+        if (distanceToSection(planes, place) >= 0.0) left |= 1 << i;
     }
     return left;
 }
+
+#endif
 
 // The view ray towards the mesh's point: `back` metres before that point it enters what is left, through a plane.
 struct SectionEntry {
@@ -82,6 +102,20 @@ bool isBehindNearPlane(highp vec3 point) {
     return (ofFragment(frameUniforms.exposure.w) > 0.0 ? clip.z : clip.w - clip.z) >= 0.0;
 }
 
+#if defined(DEPTH_RUNS_MATERIAL)
+
+// Negative: the fragment is not drawn.
+highp float sectionDistance(highp vec3 point) {
+    highp float here = distanceToSection(cuttingPlanes(), point);
+    if (!isSectionPart(kSlabCaps)) return here;
+    if (gl_FrontFacing || here >= 0.0) return -1.0;
+    SectionEntry entry = sectionEntry(point, -shading_view, ofFragment(frameUniforms.clipFromView[3].w) != 0.0);
+    highp vec3 cap = point + shading_view * entry.back;
+    return entry.exists && isBehindNearPlane(cap) ? distanceToSection(kLeft, cap) : -1.0;
+}
+
+#else
+
 // From the derivatives of the mesh's point those of the point where the same rays meet the plane.
 highp vec3 onPlane(highp vec3 difference, highp vec3 along, highp float nearer) {
     return (difference - along * (dot(section_normal, difference) / dot(section_normal, along))) * nearer;
@@ -114,15 +148,13 @@ void cutSurface() {
     section_right = dFdx(section_point);
     section_down = dFdy(section_point);
     if (sectionCount() > 0) {
-        if (ofFragment(passUniforms.raster.x) > 1.0) {
-            section_samples = samplesLeft(section_point);
-            section_isCut = section_samples == 0;
-        } else {
-            section_isCut = sectionDistance(section_point) < 0.0;
-        }
+        section_samples = samplesLeft(cuttingPlanes(), section_point);
 #if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED) // the depth test finds the first surface of these alone
         if (!gl_FrontFacing && ofFragment(frameUniforms.section.z) > 0.0) findCap();
+        if (isSectionPart(kSlabCaps))
+            section_samples = section_isCap ? samplesLeft(kLeft, section_point) & ~section_samples : 0;
 #endif
+        section_isCut = section_samples == 0;
     }
 }
 

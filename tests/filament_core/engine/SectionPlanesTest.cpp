@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // View::section on both APIs: what is left of boxes and balls, pixel by pixel beside rays that the test casts itself;
 // and a cut box beside one that is as large as what is left of it, in light, shadows and effects.
-#include "tests/filament_core/engine/ShadowStage.h"
+#include "tests/filament_core/engine/SectionStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 
 #include <filament_core/Primitives.h>
@@ -14,41 +14,6 @@
 
 namespace filament_core {
 namespace {
-
-constexpr uint2 kSectionSize(40, 32);
-
-std::string sectioned(std::string const& properties, std::string const& color) {
-    return "material { name : sectioned, shadingModel : lit, sectionPlanes : true" + properties + R"( }
-fragment { void material(inout MaterialInputs material) {
-    prepareMaterial(material);
-    material.baseColor.rgb = )" +
-           color + R"(;
-    material.roughness = 0.25;
-    material.metallic = 0.75;
-} })";
-}
-const std::string kSectioned = sectioned("", "isSectionCap() ? vec3(0.8, 0.4, 0.2) : vec3(0.3, 0.5, 0.7)");
-
-/// A solid of the scene and its ray intersection.
-class SolidMesh {
-public:
-    SolidMesh(Engine& engine, Mesh const& mesh)
-            : mVertices(engine.own(engine.create(mesh.vertexBuffer()))),
-              mIndices(engine.own(engine.create(mesh.indexBuffer()))), mBounds(mesh.bounds()) {}
-
-    Renderable add(Scene& scene, MaterialInstance material, double4x4 const& world) const {
-        return scene.add({ .vertices = mVertices,
-                           .indices = mIndices,
-                           .material = material,
-                           .bounds = mBounds,
-                           .worldFromObject = world });
-    }
-
-private:
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
-    Box mBounds;
-};
 
 /// Where a ray is inside of something convex, and the outward normals at both ends.
 struct Stretch {
@@ -99,7 +64,6 @@ std::optional<SolidHit> seenOfCutBox(SectionPlanes const& section, double3 origi
     if (planes == 0 || section.cut == SectionCut::Each) {
         const bool isCap = planes > 0 && left.begin > begin;
         if (std::max(begin, left.begin) >= std::min(solid.end, left.end)) return {};
-        if (isCap && solid.end > left.end) return {}; // the ray finds no surface in what is left: docs/sections.md
         return hit(isCap ? left.begin : begin, isCap ? left.normal : solid.normal, isCap);
     }
     if (begin >= solid.end) return {};
@@ -114,44 +78,11 @@ std::optional<SolidHit> seenOfCutBox(SectionPlanes const& section, double3 origi
     return hit(corner.end, normal, true);
 }
 
-struct SectionStage {
-    Engine engine;
-    SolidMesh box{ engine, *makeBox({ .size = float3(2) }) };
-    Owned<Material> material;
-    Owned<MaterialInstance> instance;
-    View view{ .camera = Camera::lookAt({ 2.2, 2.9, 4.1 }, { 0.1, 0, 0 }, { .verticalFovDegrees = 42 }),
-               .size = kSectionSize };
-
-    explicit SectionStage(Backend backend)
-            : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
-              material(test::loadMaterial(engine, kSectioned)), instance(engine.own(engine.createInstance(material))) {}
-    ~SectionStage() { test::expectNoErrors(engine); }
-};
-
 struct SectionPlanesTest : testing::TestWithParam<Backend> {
     SectionStage stage{ GetParam() };
 };
 INSTANTIATE_TEST_SUITE_P(BothApis, SectionPlanesTest, testing::ValuesIn(test::kBothApis),
                          [](auto const& test) { return std::string(toString(test.param)); });
-
-float4 aovNumberAt(Image const& image, uint2 pixel) {
-    float4 number;
-    std::memcpy(&number, image.pixels.data() + (size_t{ pixel.y } * image.width + pixel.x) * sizeof(number),
-                sizeof(number));
-    return number;
-}
-
-struct SectionRay {
-    double3 origin, along; ///< one metre along the view for each of `along`
-};
-SectionRay sectionRay(View const& view, double2 at) {
-    const double3x3 axes(view.camera.worldFromView);
-    const double2 place = at / double2(view.size) * 2.0 - 1.0;
-    const double4x4 clip(view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y)));
-    const double3 across(place.x / clip[0].x, -place.y / std::abs(clip[1].y), 0);
-    if (clip[3].w != 0) return { view.camera.position() + axes * across, axes * double3(0, 0, -1) };
-    return { view.camera.position(), axes * (across + double3(0, 0, -1)) };
-}
 
 /// Whether rays a fiftieth of a pixel beside this one see another face.
 template <class SeenAt>
@@ -200,7 +131,7 @@ size_t expectCutBox(SectionStage& stage, Scene const& scene, double3 center, dou
 
 std::vector<SectionPlanes> sectionsAt(double3 center) {
     const auto plane = [&](double3 point, double3 normal) { return sectionPlane(point + center, normal); };
-    SectionPlanes none, one, tilted, slab, corner, through;
+    SectionPlanes none, one, tilted, slab, corner, inside, through;
     one.planes[0] = plane({ 0, 0, 0.3 }, { 0, 0, -2 });
     tilted.planes[3] = plane({ 0.1, 0.2, 0.1 }, { -0.5, -0.7, -0.6 });
     slab.planes[0] = plane({ 0, 0.6, 0 }, { 0, -1, 0 });
@@ -210,8 +141,14 @@ std::vector<SectionPlanes> sectionsAt(double3 center) {
     corner.planes[0] = plane({ 0.1, 0, 0 }, { -1, 0, 0 });
     corner.planes[1] = plane({ 0, 0.2, 0 }, { 0, -1, 0 });
     corner.planes[2] = plane({ 0, 0, -0.1 }, { 0.1, 0, -1 });
+    for (int axis = 0; axis < 3; ++axis) // a box, all of which is caps
+        for (const double side : { -1.0, 1.0 }) {
+            double3 outwards(0);
+            outwards[axis] = side;
+            inside.planes[static_cast<size_t>(2 * axis) + (side > 0)] = plane(outwards * 0.7, -outwards);
+        }
     through.planes[0] = plane({ 0, 0, 5 }, { 0, 0, 1 });
-    return { none, one, tilted, slab, corner, through };
+    return { none, one, tilted, slab, corner, inside, through };
 }
 
 TEST_P(SectionPlanesTest, ShowOfABoxWhatRaysFindThatTheTestCasts) {
@@ -228,8 +165,8 @@ TEST_P(SectionPlanesTest, ShowOfABoxWhatRaysFindThatTheTestCasts) {
     }
     for (const size_t first : { size_t{ 0 }, caps.size() / 2 }) {
         EXPECT_EQ(caps[first], 0u);
-        for (size_t i = 1; i < 5; ++i) EXPECT_GT(caps[first + i], 60u) << i;
-        EXPECT_EQ(caps[first + 5], 0u) << "nothing is left";
+        for (size_t i = 1; i < 6; ++i) EXPECT_GT(caps[first + i], 60u) << i;
+        EXPECT_EQ(caps[first + 6], 0u) << "nothing is left";
     }
 }
 
@@ -271,7 +208,7 @@ TEST_P(SectionPlanesTest, AreAsExactFarFromTheOrigin) {
     };
     const double3 far(36'000'000, -4'194'304, 12'582'912); // metres
     const std::vector<SectionPlanes> near = sectionsAt(double3(0)), there = sectionsAt(far);
-    for (const size_t i : { size_t{ 1 }, size_t{ 3 } })
+    for (const size_t i : { size_t{ 1 }, size_t{ 3 }, size_t{ 5 } })
         EXPECT_LE(test::differingPixels(draw(double3(0), near[i]), draw(far, there[i])), 12u) << i;
 }
 
@@ -460,7 +397,7 @@ TEST(SectionPlanes, HaveTheSameBitsOnBothApis) {
         }
         return drawn;
     });
-    EXPECT_EQ(images.size(), 12u);
+    EXPECT_EQ(images.size(), 14u);
 }
 
 } // namespace
