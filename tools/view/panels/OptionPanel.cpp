@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/PanelFrame.h"
 #include "tools/view/panels/PanelText.h"
+#include "tools/view/panels/SectionModel.h"
 
 #include <filament_core/RenderPreset.h>
 
@@ -110,6 +111,34 @@ void drawOption(PanelFrame& frame, Option const& option) {
     ImGui::PopID();
 }
 
+/// Which axis, where on it within what is drawn, and which side stays.
+void drawFirstPlane(PanelFrame& frame) {
+    const AxisPlane now = axisPlaneOf(frame.document.view.section.planes[0]);
+    Box bounds = frame.stage.bounds();
+    if (bounds.empty()) bounds = { double3(-1), double3(1) };
+    AxisPlane wanted = now;
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
+    if (ImGui::BeginCombo("section", kSectionAxes[static_cast<size_t>(now.axis)])) {
+        for (const SectionAxis axis : { SectionAxis::None, SectionAxis::X, SectionAxis::Y, SectionAxis::Z }) {
+            const bool isChosen = ImGui::Selectable(kSectionAxes[static_cast<size_t>(axis)], axis == now.axis);
+            if (isChosen && axis != now.axis) wanted = throughMiddle(axis, bounds);
+        }
+        ImGui::EndCombo();
+    }
+    tooltip("section.plane1: cuts the model at right angles to an axis");
+    if (now.axis != SectionAxis::None && now.axis != SectionAxis::Other) {
+        const int axis = static_cast<int>(now.axis) - static_cast<int>(SectionAxis::X);
+        const double least = bounds.min[axis], most = bounds.max[axis];
+        ImGui::SameLine();
+        if (ImGui::Button(now.keepsAbove ? "above" : "below")) wanted.keepsAbove = !now.keepsAbove;
+        tooltip("the side that stays");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        ImGui::SliderScalar("##section place", ImGuiDataType_Double, &wanted.meters, &least, &most, "%.3f m");
+    }
+    if (wanted != now) setFirstPlane(frame.document, wanted);
+}
+
 void drawPresets(PanelFrame& frame) {
     constexpr std::array kPresets{ RenderPreset::Fast, RenderPreset::Balanced, RenderPreset::Fine,
                                    RenderPreset::Cinematic };
@@ -153,6 +182,7 @@ void editOption(PanelFrame& frame, Option const& option, std::string_view value)
 
 void drawOptionPanel(PanelFrame& frame) {
     drawPresets(frame);
+    drawFirstPlane(frame);
     filterField("##option filter", frame.state.optionFilter);
     if (ImGui::BeginChild("options")) {
         for (OptionGroup const& group : frame.options) drawOptionGroup(frame, group);
