@@ -76,6 +76,7 @@ void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primit
         addDeltas(document, target.normal, weights[i], "a NORMAL target", geometry.normals, diagnostics);
         addDeltas(document, target.tangent, weights[i], "a TANGENT target", geometry.tangents, diagnostics);
         geometry.positionFormat = backend::VertexFormat::Float3;
+        geometry.frames.clear();
     }
 }
 
@@ -104,6 +105,7 @@ void applySkin(std::span<const float4x4> worldFromBind, std::string const& path,
         }
     }
     geometry.positionFormat = backend::VertexFormat::Float3;
+    geometry.frames.clear();
     // The winding belongs to triangles, mirroring to vertices: the majority decides for the whole primitive.
     if (mirrored * 2 > geometry.positions.size() && geometry.topology == backend::PrimitiveType::Triangles) {
         reverseTriangles(geometry);

@@ -79,6 +79,7 @@ struct GltfAttributes {
     static constexpr uint32_t kUvSets = 4, kJointSets = 2;
     static constexpr uint32_t kFirstUvSets = 2; ///< are kept even if no map uses them
     uint32_t position = kNone, normal = kNone, tangent = kNone, color = kNone;
+    uint32_t frame = kNone; ///< _FILAMENT_TANGENTS: instead of the other two, if they are there, too
     std::array<uint32_t, kUvSets> uv{ kNone, kNone, kNone, kNone }; ///< those of `uvSets` that are kept (GltfUvSets.h)
     std::array<uint32_t, kUvSets> keptSets{ 0, 1, kNone, kNone };   ///< which those are
     std::vector<uint32_t> uvSets;                                   ///< TEXCOORD_n of the file, by n

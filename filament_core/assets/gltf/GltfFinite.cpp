@@ -68,6 +68,14 @@ void repairDirections(std::string const& path, GltfGeometry& geometry, Diagnosti
     repairTangents(path, geometry, diagnostics);
 }
 
+void checkFrames(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
+    const auto isUnit = [](float4 const& q) { return std::abs(glm::dot(q, q) - 1) < 0.05f; }; // 8 bits reach 0.02
+    if (std::ranges::all_of(geometry.frames, isUnit) && !geometry.normals.empty()) return;
+    if (!geometry.frames.empty())
+        diagnostics.warn("{}: _FILAMENT_TANGENTS needs unit quaternions and a NORMAL, and is left out", path);
+    geometry.frames.clear();
+}
+
 void dropNonFinite(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
     std::vector<bool> isBroken;
     for (float3 const& position : geometry.positions) isBroken.push_back(!allFinite(position));

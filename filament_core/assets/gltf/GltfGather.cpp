@@ -24,6 +24,10 @@ constexpr IntegerFormats kOfUvs{ VertexFormat::Byte4N, VertexFormat::UByte4N, Ve
 constexpr IntegerFormats kOfShares{ VertexFormat::Float4, VertexFormat::UByte4N, VertexFormat::Float4,
                                     VertexFormat::UShort4N };
 
+/// Of signed numbers.
+constexpr IntegerFormats kOfFrames{ VertexFormat::Byte4N, VertexFormat::Float4, VertexFormat::Short4N,
+                                    VertexFormat::Float4 };
+
 VertexFormat formatOf(GltfAccessor const& accessor, IntegerFormats const& integers, VertexFormat floats) {
     if (!accessor.normalized) return floats;
     switch (accessor.component) {
@@ -128,6 +132,7 @@ void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes,
     geometry.positions = source.read<float3>(attributes.position, ids.position, "POSITION", kKept);
     geometry.normals = source.read<float3>(attributes.normal, ids.normal, "NORMAL", kKept);
     geometry.tangents = source.read<float4>(attributes.tangent, ids.tangent, "TANGENT", kKept);
+    geometry.frames = source.read<float4>(attributes.frame, ids.frame, "_FILAMENT_TANGENTS");
     geometry.colors = source.readColors(attributes.color, ids.color);
     for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
         const std::string name = fmt::format("TEXCOORD_{}", attributes.keptSets[set]);
@@ -144,6 +149,8 @@ void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes,
 void chooseFormats(GltfDocument const& document, GltfAttributes const& attributes, GltfGeometry& geometry) {
     geometry.positionFormat = positionFormat(document.accessors[attributes.position]);
     if (attributes.color != kNone) geometry.colorFormat = shareFormat(document.accessors[attributes.color]);
+    if (attributes.frame != kNone)
+        geometry.frameFormat = formatOf(document.accessors[attributes.frame], kOfFrames, VertexFormat::Float4);
     for (size_t set = 0; set < GltfAttributes::kFirstUvSets; ++set) {
         if (attributes.uv[set] == kNone) continue;
         geometry.uvFormats[set] = uvFormat(document.accessors[attributes.uv[set]]);
@@ -205,6 +212,7 @@ void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources) 
     reorder(geometry.positions);
     reorder(geometry.normals);
     reorder(geometry.tangents);
+    reorder(geometry.frames);
     reorder(geometry.colors);
     for (auto& uvs : geometry.uvs) reorder(uvs);
     for (auto& joints : geometry.joints) reorder(joints);

@@ -27,6 +27,7 @@ struct GltfGeometry {
     std::vector<float3> positions;
     std::vector<float3> normals;  ///< empty, or one per vertex, as all below
     std::vector<float4> tangents; ///< w: handedness
+    std::vector<float4> frames;   ///< TangentFrame.h; empty: normals and tangents give them
     std::vector<float4> colors;
     std::array<std::vector<float2>, GltfAttributes::kUvSets> uvs;
     std::array<std::vector<JointIndices>, GltfAttributes::kJointSets> joints;
@@ -38,6 +39,7 @@ struct GltfGeometry {
 
     backend::VertexFormat positionFormat = backend::VertexFormat::Float3;
     backend::VertexFormat colorFormat = backend::VertexFormat::Float4;
+    backend::VertexFormat frameFormat = backend::VertexFormat::Float4;
     std::array<backend::VertexFormat, GltfAttributes::kFirstUvSets> uvFormats{ backend::VertexFormat::Float2,
                                                                                backend::VertexFormat::Float2 };
 
@@ -55,6 +57,9 @@ GltfGeometry gatherGeometry(GltfDocument const& document, GltfPrimitive const& p
 /// Of lists: a normal that is not finite becomes that of the triangles around its vertex. If a tangent is not finite,
 /// all are dropped, so that they are computed like missing ones. With one warning each.
 void repairDirections(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
+
+/// Frames of the file are unit quaternions beside normals; others are left out, with a warning.
+void checkFrames(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
 
 /// Drops the triangles, lines or points with a corner whose position is not finite, with one warning: at any other
 /// place it would be a spike. Their vertices move to a corner that is left, so that no bounds grow.

@@ -47,6 +47,7 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     // The list comes first, because everything below takes whole triangles, and it checks all indices. Morph targets
     // come before the skin, whose matrices start from the morphed mesh, as in the shader.
     makeList(primitive, path, geometry, diagnostics);
+    if (diagnostics.ok()) checkFrames(path, geometry, diagnostics);
     if (diagnostics.ok()) repairDirections(path, geometry, diagnostics);
     if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
     if (!diagnostics.ok() || geometry.indices.empty()) return {};

@@ -126,8 +126,13 @@ VertexFormat formatOf(TangentStorage storage) {
     return VertexFormat::Float4;
 }
 
-/// w keeps its sign when it is rounded, because it is at least one integer step.
+VertexFormat frameFormat(GltfGeometry const& geometry, TangentStorage storage) {
+    return geometry.frames.empty() ? formatOf(storage) : geometry.frameFormat;
+}
+
+/// Those of the file, or of its normals and tangents: w keeps its sign when it is rounded, because it is at least one integer step.
 std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storage) {
+    if (!geometry.frames.empty()) return geometry.frames;
     const float leastW = storage == TangentStorage::Snorm8 ? 1.0f / 127 : 1.0f / 32767;
     std::vector<float4> frames(geometry.normals.size());
     for (size_t i = 0; i < frames.size(); ++i) {
@@ -271,7 +276,8 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
         return exists ? interleaver.addAttribute(location, format) : uint16_t{ 0 };
     };
     const uint16_t position = add(true, shader::kAttributePosition, geometry.positionFormat);
-    const uint16_t frame = add(primitive.hasNormals, shader::kAttributeTangents, formatOf(storage.tangents));
+    const uint16_t frame =
+            add(primitive.hasNormals, shader::kAttributeTangents, frameFormat(geometry, storage.tangents));
     const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
     const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
     const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);
@@ -281,7 +287,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     // All attributes are added before the first write: every one changes the stride.
     interleaver.allocate();
     interleaver.write(geometry.positions, position, geometry.positionFormat);
-    interleaver.write(framesOf(geometry, storage.tangents), frame, formatOf(storage.tangents));
+    interleaver.write(framesOf(geometry, storage.tangents), frame, frameFormat(geometry, storage.tangents));
     interleaver.write(geometry.colors, color, geometry.colorFormat);
     interleaver.write(geometry.uvs[0], uv0, geometry.uvFormats[0]);
     interleaver.write(geometry.uvs[1], uv1, geometry.uvFormats[1]);

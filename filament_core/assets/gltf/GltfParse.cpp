@@ -174,6 +174,7 @@ GltfAttributes parseAttributes(JsonNode const& node, size_t count, const char* w
     attributes.normal = read("NORMAL");
     attributes.tangent = read("TANGENT");
     attributes.color = read("COLOR_0");
+    attributes.frame = read("_FILAMENT_TANGENTS");
     attributes.uvSets = parseUvSets(node, count, what);
     attributes.joints = { read("JOINTS_0"), read("JOINTS_1") };
     attributes.weights = { read("WEIGHTS_0"), read("WEIGHTS_1") };

@@ -152,6 +152,7 @@ TangentBasis addTangents(GltfGeometry& geometry, TangentBasis const& basis) {
     const bool isPossible = geometry.topology == PrimitiveType::Triangles && !geometry.normals.empty() &&
                             !geometry.uvs[basis.uvSet].empty() && geometry.tangents.empty();
     if (!isPossible) return { .uvSet = basis.uvSet };
+    geometry.frames.clear();
     for (float3& normal : geometry.normals) normal = normalizedOr(normal, float3(0, 0, 1));
     std::vector<float2> uvs = geometry.uvs[basis.uvSet];
     if (basis != TangentBasis{ .uvSet = basis.uvSet }) {

@@ -84,7 +84,8 @@ private:
     }
 
     void attributes(GltfAttributes const& attributes) {
-        for (const uint32_t index : { attributes.position, attributes.normal, attributes.tangent, attributes.color })
+        for (const uint32_t index :
+             { attributes.position, attributes.normal, attributes.tangent, attributes.color, attributes.frame })
             accessor(index);
         for (const uint32_t index : attributes.uv) accessor(index);
         for (const uint32_t index : attributes.joints) accessor(index);

@@ -59,6 +59,8 @@ inline constexpr const char* kSpecimenGlossiness = R"({ "KHR_materials_pbrSpecul
 inline Specimen writtenSpecimen() {
     TestFile file = TestFile::triangle();
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });
+    file.attribute("_FILAMENT_TANGENTS", std::vector<int16_t>{ 0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 0, -32767 },
+                   kShort, "VEC4", 4, true);
     file.attribute("TEXCOORD_0", std::vector<uint16_t>{ 0, 0, 65535, 0, 0, 65535 }, kUShort, "VEC2", 2, true);
     file.attribute("COLOR_0", std::vector<float>(9, 0.5f), kFloat, "VEC3", 3);
     file.attribute("JOINTS_0", std::vector<uint8_t>(12, 0), kUByte, "VEC4", 4);
