@@ -210,19 +210,46 @@ private:
         return list("accessors").size() - 1;
     }
 
-    Json ownPrimitive(GlbPrimitive const& own) {
+    /// With the bounds that glTF wants of positions.
+    size_t addPositions(std::vector<float3> const& positions) {
+        float3 low = positions.at(0), high = low;
+        for (float3 const& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+        const size_t accessor = addAccessor(positions, "VEC3");
+        list("accessors")[accessor]["min"] = { low.x, low.y, low.z };
+        list("accessors")[accessor]["max"] = { high.x, high.y, high.z };
+        return accessor;
+    }
+
+    size_t addAttribute(GltfMergeAttribute const& attribute, size_t count) {
+        Json json{ { "bufferView", addGltfView(mState, attribute.bytes, kVertexTarget) },
+                   { "componentType", attribute.component },
+                   { "count", count },
+                   { "type", "VEC4" } };
+        if (attribute.isNormalized) json["normalized"] = true;
+        list("accessors").push_back(std::move(json));
+        return list("accessors").size() - 1;
+    }
+
+    Json targetJson(MorphTargetData const& target) {
+        Json json = Json::object();
+        if (!target.positions.empty()) json["POSITION"] = addPositions(target.positions);
+        if (!target.normals.empty()) json["NORMAL"] = addAccessor(target.normals, "VEC3");
+        if (!target.tangents.empty()) json["TANGENT"] = addAccessor(target.tangents, "VEC3");
+        return json;
+    }
+
+    Json ownPrimitive(GltfMergePrimitive const& primitive) {
+        GlbPrimitive const& own = primitive.own;
         Json attributes = Json::object();
-        float3 low = own.positions.at(0), high = low;
-        for (float3 const& p : own.positions) low = glm::min(low, p), high = glm::max(high, p);
-        const size_t positions = addAccessor(own.positions, "VEC3");
-        list("accessors")[positions]["min"] = { low.x, low.y, low.z };
-        list("accessors")[positions]["max"] = { high.x, high.y, high.z };
-        attributes["POSITION"] = positions;
+        attributes["POSITION"] = addPositions(own.positions);
         if (!own.normals.empty()) attributes["NORMAL"] = addAccessor(own.normals, "VEC3");
         if (!own.tangents.empty()) attributes["TANGENT"] = addAccessor(own.tangents, "VEC4");
         if (!own.colors.empty()) attributes["COLOR_0"] = addAccessor(own.colors, "VEC4");
         if (!own.uvs.empty()) attributes["TEXCOORD_0"] = addAccessor(own.uvs, "VEC2");
+        for (GltfMergeAttribute const& attribute : primitive.attributes)
+            attributes[attribute.name] = addAttribute(attribute, own.positions.size());
         Json json{ { "attributes", std::move(attributes) } };
+        for (MorphTargetData const& target : primitive.targets) gltfList(json, "targets").push_back(targetJson(target));
         if (own.indices.empty()) return json;
         const bool isShort = own.positions.size() < 65536; // 65535 would restart primitives
         const std::vector<uint16_t> narrow(own.indices.begin(), isShort ? own.indices.end() : own.indices.begin());
@@ -251,7 +278,7 @@ private:
         Json primitives = Json::array();
         for (GltfMergePrimitive const& primitive : mesh.primitives) {
             if (!isDivisible && primitive.primitive != kNone) continue;
-            Json written = primitive.primitive == kNone ? ownPrimitive(primitive.own) : ofFile[primitive.primitive];
+            Json written = primitive.primitive == kNone ? ownPrimitive(primitive) : ofFile[primitive.primitive];
             if (primitive.primitive == kNone && primitive.mode != 4) written["mode"] = primitive.mode;
             if (primitive.material) written["material"] = mMaterials[*primitive.material];
             if (primitive.ofFile && *primitive.ofFile == kNone) written.erase("material");
@@ -301,7 +328,24 @@ private:
             mNodes.push_back(node.copy == kNone ? next++ : mCopies[node.copy].nodes + node.node);
         while (nodes.size() < next) nodes.push_back(Json::object());
         dropForeignChildren();
+        addSkins();
         for (size_t i = 0; i < mMerge.nodes.size(); ++i) writeNode(mMerge.nodes[i], mNodes[i]);
+    }
+
+    void addSkins() {
+        for (GltfMergeSkin const& skin : mMerge.skins) {
+            Json joints = Json::array();
+            for (const uint32_t joint : skin.joints) joints.push_back(mNodes[joint]);
+            const size_t view = addGltfView(mState, std::as_bytes(std::span(skin.jointFromBind)), 0);
+            Json json{ { "joints", std::move(joints) }, { "inverseBindMatrices", list("accessors").size() } };
+            list("accessors")
+                    .push_back({ { "bufferView", view },
+                                 { "componentType", kFloatComponent },
+                                 { "count", skin.jointFromBind.size() },
+                                 { "type", "MAT4" } });
+            mSkins.push_back(list("skins").size());
+            list("skins").push_back(std::move(json));
+        }
     }
 
     /// Nodes that the program removed stay, below none of the scene, for what names them. What is below them in the
@@ -368,6 +412,7 @@ private:
             copied(node.skinOf, "weights");
         }
         if (node.mesh != kNone) json["mesh"] = mMeshes[node.mesh];
+        if (node.skin != kNone) json["skin"] = mSkins[node.skin];
     }
 
     void addScene() {
@@ -456,7 +501,7 @@ private:
     std::vector<GltfCopyOffsets> mCopies;
     std::set<size_t> mAnimated; // nodes
     size_t mFirstImage = 0;
-    std::vector<size_t> mMaterials, mMeshes, mLights, mNodes, mCameraNodes; // in the file, of those in mMerge
+    std::vector<size_t> mMaterials, mMeshes, mLights, mSkins, mNodes, mCameraNodes; // in the file, of those in mMerge
 };
 
 void appendWord(std::vector<std::byte>& file, uint32_t word) {

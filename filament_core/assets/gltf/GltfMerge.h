@@ -46,12 +46,22 @@ struct GltfMergeMaterial {
             textures{}; ///< in the place of others, by the pointers of their infos
 };
 
+/// An attribute of a new primitive as its bytes, one element for each position.
+struct GltfMergeAttribute {
+    std::string name; ///< "JOINTS_0"
+    std::vector<std::byte> bytes;
+    uint32_t component = 5126; ///< as glTF numbers them; every element has four of them
+    bool isNormalized = false;
+};
+
 struct GltfMergePrimitive {
-    uint32_t primitive = kNone;         ///< of the source; kNone: `own`
-    std::optional<uint32_t> material{}; ///< into GltfMerge::materials; none: that of the source, or none
-    std::optional<uint32_t> ofFile{};   ///< another material of the same source; kNone: the default one
-    GlbPrimitive own{};                 ///< without its material
-    uint32_t mode = 4;                  ///< of `own`, as glTF numbers them: 4 are triangles
+    uint32_t primitive = kNone;                   ///< of the source; kNone: `own`
+    std::optional<uint32_t> material{};           ///< into GltfMerge::materials; none: that of the source, or none
+    std::optional<uint32_t> ofFile{};             ///< another material of the same source; kNone: the default one
+    GlbPrimitive own{};                           ///< without its material
+    std::vector<GltfMergeAttribute> attributes{}; ///< beside those of `own`
+    std::vector<MorphTargetData> targets{};       ///< of `own`; all primitives of a mesh have as many
+    uint32_t mode = 4;                            ///< of `own`, as glTF numbers them: 4 are triangles
 };
 
 /// A mesh with other primitives or materials than in its source, or a new one.
@@ -60,6 +70,11 @@ struct GltfMergeMesh {
     uint32_t source = kNone, mesh = kNone;
     uint32_t primitiveCount = 0; ///< of the source, as the program has them
     std::vector<GltfMergePrimitive> primitives;
+};
+
+struct GltfMergeSkin {
+    std::vector<uint32_t> joints; ///< into GltfMerge::nodes, each once
+    std::vector<float4x4> jointFromBind;
 };
 
 struct GltfMergeCamera {
@@ -76,6 +91,7 @@ struct GltfMergeNode {
     uint32_t mesh = kNone;                       ///< into GltfMerge::meshes; replaces that of the file
     uint32_t skinOf = kNone;                     ///< a node of the same copy whose skin and weights it has
     uint32_t meshOf = kNone;                     ///< a node of the same copy whose mesh of the file it has
+    uint32_t skin = kNone;                       ///< into GltfMerge::skins, of a new node
     std::optional<std::vector<float>> weights{}; ///< of morph targets
     bool losesLights = false;                    ///< of the file
     uint32_t light = kNone;                      ///< into GltfMerge::lights
@@ -90,6 +106,7 @@ struct GltfMerge {
     std::vector<GltfMergeMaterial> materials{};
     std::vector<GltfMergeMesh> meshes{};
     std::vector<LightData> lights{};
+    std::vector<GltfMergeSkin> skins{};
     std::vector<GltfMergeCamera> cameras{};
     std::vector<GltfMergeNode> nodes{};
     std::vector<uint32_t> roots{};       ///< into `nodes`

@@ -42,9 +42,11 @@ struct SaveContext {
         scene::Renderables const& all = scene.data.renderables;
         return all.drawables[all.drawable[all.index.at(renderable)]];
     }
-    bool isDeformed(Renderable renderable) const {
+    /// Null: it has neither a skin nor morph targets.
+    scene::Deformation const* deformationOf(Renderable renderable) const {
         scene::Renderables const& all = scene.data.renderables;
-        return scene::deformationAt(all, all.index.at(renderable)) != scene::kNotDeformed;
+        const uint32_t slot = scene::deformationAt(all, all.index.at(renderable));
+        return slot == scene::kNotDeformed ? nullptr : &scene.data.deformations.all()[slot];
     }
     bool isHidden(Renderable renderable) const {
         scene::Renderables const& all = scene.data.renderables;
@@ -101,14 +103,45 @@ private:
 class SavedGeometry {
 public:
     explicit SavedGeometry(SaveContext& context) : mContext(context) {}
-    /// `material`: what draws it; of others than triangles the mode is written, too. Empty: it has no positions.
-    Result<assets::GltfMergePrimitive> read(scene::Geometry const& geometry, scene::Material const& material);
+    /// Of others than triangles the mode is written, too; with what its skin and morph targets need. Empty: it has no
+    /// positions.
+    Result<assets::GltfMergePrimitive> read(Renderable renderable);
 
 private:
+    Result<void> addTargets(scene::MorphTargets const& morph, std::span<const uint32_t> used,
+                            assets::GltfMergePrimitive& primitive);
     Result<std::vector<std::byte> const*> bytesOf(backend::BufferHandle buffer, uint64_t bytes);
 
     SaveContext& mContext;
-    std::map<uint64_t, std::vector<std::byte>> mBuffers;
+    std::map<uint64_t, std::vector<std::byte>> mBuffers, mDeltas;
+};
+
+/// Skins that the program made, as joints and inverse bind matrices.
+class SavedSkins {
+public:
+    explicit SavedSkins(SaveContext& context) : mContext(context) {}
+    /// Where a node of the scene is among GltfMerge::nodes; `isItself`: else what is below it is there.
+    void know(Node node, uint32_t written, bool isItself) { mWritten[node.index()] = { written, isItself }; }
+    /// It deforms the mesh of a node of the file, which is below `parent`.
+    void use(Skin skin, uint32_t node, uint32_t parent) { mUses.push_back({ skin, node, parent }); }
+    /// After all nodes.
+    void finish();
+
+private:
+    struct Place {
+        uint32_t written = assets::kNone;
+        bool isItself = false;
+    };
+    struct Use {
+        Skin skin{};
+        uint32_t node = assets::kNone, parent = assets::kNone;
+    };
+    assets::GltfMergeSkin skinOf(scene::SkinRecord const& record, uint32_t parent);
+    uint32_t addBone(size_t number, uint32_t parent);
+
+    SaveContext& mContext;
+    std::unordered_map<uint32_t, Place> mWritten; // by slot of the node
+    std::vector<Use> mUses;
 };
 
 /// Pixels of a level of a texture.

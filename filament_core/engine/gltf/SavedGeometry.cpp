@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace filament_core::engine {
@@ -92,6 +93,176 @@ std::vector<uint32_t> usedVertices(std::vector<uint32_t>& indices, uint32_t vert
     return used;
 }
 
+/// As glTF numbers what the integers and floats of a vertex format are.
+uint32_t componentOf(VertexFormat format) {
+    switch (format) {
+    case VertexFormat::Byte4N:
+        return 5120;
+    case VertexFormat::UByte4:
+    case VertexFormat::UByte4N:
+        return 5121;
+    case VertexFormat::Short4N:
+        return 5122;
+    case VertexFormat::UShort4:
+    case VertexFormat::UShort4N:
+        return 5123;
+    default:
+        return 5126;
+    }
+}
+
+template <class T>
+std::vector<std::byte> bytesOfAll(std::vector<T> const& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    return { bytes.begin(), bytes.end() };
+}
+
+template <class Integer>
+std::vector<std::byte> integersOf(std::vector<float4> const& values, float one) {
+    std::vector<Integer> integers;
+    for (float4 const& value : values)
+        for (int i = 0; i < 4; ++i) integers.push_back(static_cast<Integer>(std::lround(value[i] * one)));
+    return bytesOfAll(integers);
+}
+
+/// In the format that the vertices have where glTF has it, too, so that the device converts the same numbers; else as
+/// floats.
+assets::GltfMergeAttribute attributeOf(std::string name, std::vector<float4> const& values, VertexFormat format) {
+    const uint32_t component = componentOf(format);
+    const bool isNormalized = component != 5126 && backend::vertexFormatInfo(format).normalized;
+    assets::GltfMergeAttribute attribute{ std::move(name), {}, component, isNormalized };
+    if (component == 5120) attribute.bytes = integersOf<int8_t>(values, 127);
+    if (component == 5121) attribute.bytes = integersOf<uint8_t>(values, isNormalized ? 255.0f : 1.0f);
+    if (component == 5122) attribute.bytes = integersOf<int16_t>(values, 32767);
+    if (component == 5123) attribute.bytes = integersOf<uint16_t>(values, isNormalized ? 65535.0f : 1.0f);
+    if (component == 5126) attribute.bytes = bytesOfAll(values);
+    return attribute;
+}
+
+/// Frames, with the normals that other programs read, and the tangents if morph targets change them.
+void addFrames(std::vector<float4> const& frames, VertexFormat format, bool hasTangents, GltfMergePrimitive& to) {
+    for (float4 const& quaternion : frames) {
+        const TangentFrame frame = frameOf(quaternion);
+        const float3 normal = glm::normalize(frame.normal), tangent = glm::normalize(frame.tangent);
+        to.own.normals.push_back(normal);
+        const bool isMirrored = glm::dot(glm::cross(normal, tangent), frame.bitangent) < 0;
+        if (hasTangents) to.own.tangents.emplace_back(tangent, isMirrored ? -1.0f : 1.0f);
+    }
+    if (!frames.empty()) to.attributes.push_back(attributeOf("_FILAMENT_TANGENTS", frames, format));
+}
+
+struct SkinAttributes {
+    std::array<std::vector<float4>, 2> joints, weights;
+    std::array<VertexFormat, 2> weightFormats{ VertexFormat::Float4, VertexFormat::Float4 };
+};
+
+/// Gives a joint that a vertex names before the weight of the slot, too.
+void joinEqual(SkinAttributes& skin, size_t vertex, size_t slot) {
+    float const joint = skin.joints[slot / 4][vertex][static_cast<int>(slot % 4)];
+    float& weight = skin.weights[slot / 4][vertex][static_cast<int>(slot % 4)];
+    for (size_t i = 0; i < slot && weight > 0; ++i) {
+        float& earlier = skin.weights[i / 4][vertex][static_cast<int>(i % 4)];
+        if (!(earlier > 0) || skin.joints[i / 4][vertex][static_cast<int>(i % 4)] != joint) continue;
+        earlier += weight;
+        weight = 0;
+    }
+}
+
+/// What glTF 2.0 asks for in 3.7.3.3: joints that exist, each once, 0 without a weight, and weights with a sum of 1.
+bool repairVertex(SkinAttributes& skin, size_t vertex, size_t jointCount) {
+    for (size_t slot = 0; slot < 8; ++slot) {
+        if (skin.joints[slot / 4].empty()) continue;
+        float& joint = skin.joints[slot / 4][vertex][static_cast<int>(slot % 4)];
+        float& weight = skin.weights[slot / 4][vertex][static_cast<int>(slot % 4)];
+        if (joint >= static_cast<float>(jointCount)) joint = 0;
+        joinEqual(skin, vertex, slot);
+        if (!(weight > 0)) joint = weight = 0;
+    }
+    double sum = 0;
+    int used = 0;
+    for (std::vector<float4> const& weights : skin.weights)
+        for (int k = 0; k < 4 && !weights.empty(); ++k) {
+            sum += static_cast<double>(weights[vertex][k]);
+            used += weights[vertex][k] > 0;
+        }
+    if (std::abs(sum - 1) <= 2e-7 * std::max(used, 1)) return false;
+    if (!(sum > 0)) skin.weights[0][vertex].x = 1;
+    for (std::vector<float4>& weights : skin.weights)
+        if (sum > 0 && !weights.empty()) weights[vertex] *= static_cast<float>(1 / sum);
+    return true;
+}
+
+/// Returns how many vertices had to be changed.
+size_t addSkin(SkinAttributes skin, size_t jointCount, GltfMergePrimitive& to) {
+    size_t changed = 0;
+    for (size_t set = 0; set < 2; ++set)
+        if (skin.joints[set].empty() || skin.weights[set].empty()) skin.joints[set].clear(), skin.weights[set].clear();
+    for (size_t i = 0; i < to.own.positions.size() && !skin.joints[0].empty(); ++i)
+        changed += repairVertex(skin, i, jointCount);
+    for (size_t set = 0; set < 2; ++set) {
+        if (skin.joints[set].empty()) continue;
+        const bool isNarrow = jointCount <= 256;
+        to.attributes.push_back(attributeOf(fmt::format("JOINTS_{}", set), skin.joints[set],
+                                            isNarrow ? VertexFormat::UByte4 : VertexFormat::UShort4));
+        to.attributes.push_back(attributeOf(fmt::format("WEIGHTS_{}", set), skin.weights[set],
+                                            changed > 0 ? VertexFormat::Float4 : skin.weightFormats[set]));
+    }
+    return changed;
+}
+
+/// What the material, the skin or the morph targets read.
+bool isWritten(Attribute which, scene::Material const& material, scene::Deformation const* deformation) {
+    switch (which) {
+    case Attribute::Position:
+        return true;
+    case Attribute::Tangents:
+        return material.isLit();
+    case Attribute::Color:
+    case Attribute::Uv0:
+        return (material.package.requiredAttributes >> static_cast<uint32_t>(which) & 1) != 0;
+    case Attribute::Joints:
+    case Attribute::Joints1:
+    case Attribute::Weights:
+    case Attribute::Weights1:
+        return deformation && deformation->skin;
+    default:
+        return false;
+    }
+}
+
+void addAttribute(Attribute which, VertexFormat format, std::vector<float4> values,
+                  scene::Deformation const* deformation, SkinAttributes& skin, GltfMergePrimitive& to) {
+    const size_t set = which == Attribute::Joints1 || which == Attribute::Weights1 ? 1 : 0;
+    const bool isShare = format == VertexFormat::UByte4N || format == VertexFormat::UShort4N;
+    const bool isSigned = format == VertexFormat::Byte4N || format == VertexFormat::Short4N;
+    switch (which) {
+    case Attribute::Position:
+        for (float4 const& v : values) to.own.positions.emplace_back(v);
+        break;
+    case Attribute::Tangents:
+        addFrames(values, isSigned ? format : VertexFormat::Float4,
+                  deformation && deformation->morph && deformation->morph->texels > 2, to);
+        break;
+    case Attribute::Color:
+        to.attributes.push_back(attributeOf("COLOR_0", values, isShare ? format : VertexFormat::Float4));
+        break;
+    case Attribute::Joints:
+    case Attribute::Joints1:
+        skin.joints[set] = std::move(values);
+        break;
+    case Attribute::Weights:
+    case Attribute::Weights1:
+        skin.weights[set] = std::move(values);
+        skin.weightFormats[set] = isShare ? format : VertexFormat::Float4;
+        break;
+    case Attribute::Uv0: // v of the engine's materials points up
+        for (float4 const& v : values) to.own.uvs.emplace_back(v.x, 1 - v.y);
+        break;
+    default:
+        break;
+    }
+}
+
 template <class Record>
 Result<std::vector<std::byte>> readBackBy(Engine::Impl& engine, Record const& record) {
     const backend::Ticket ticket = engine.stream->nextTicket();
@@ -133,7 +304,37 @@ Result<std::vector<std::byte> const*> SavedGeometry::bytesOf(backend::BufferHand
     return &kept;
 }
 
-Result<GltfMergePrimitive> SavedGeometry::read(scene::Geometry const& geometry, scene::Material const& material) {
+Result<void> SavedGeometry::addTargets(scene::MorphTargets const& morph, std::span<const uint32_t> used,
+                                       GltfMergePrimitive& primitive) {
+    TextureState const* const texture = stateBehind(mContext.engine.textures, morph.deltas);
+    if (!texture || morph.targetCount == 0) return {};
+    std::vector<std::byte>& texels = mDeltas[morph.deltas.index()];
+    if (texels.empty()) {
+        Result<std::vector<std::byte>> read = readBack(mContext.engine, *texture);
+        if (!read) return read.error();
+        texels = std::move(*read);
+    }
+    const size_t count = size_t{ morph.targetCount } * morph.vertexCount * morph.texels;
+    if (texels.size() < count * sizeof(float4))
+        return fail(ErrorCode::DeviceUnavailable, "the device did not give the morph targets of a mesh back");
+    for (size_t target = 0; target < morph.targetCount; ++target) {
+        assets::MorphTargetData& data = primitive.targets.emplace_back();
+        for (const uint32_t vertex : used) {
+            const size_t at = (target * morph.vertexCount + vertex) * morph.texels;
+            const auto delta = [&](size_t part) { return float3(loadAt<float4>(texels.data(), at + part)); };
+            data.positions.push_back(delta(0));
+            if (morph.texels > 1 && !primitive.own.normals.empty()) data.normals.push_back(delta(1));
+            if (morph.texels > 2 && !primitive.own.tangents.empty()) data.tangents.push_back(delta(2));
+        }
+    }
+    return {};
+}
+
+Result<GltfMergePrimitive> SavedGeometry::read(Renderable renderable) {
+    scene::Drawable const& drawable = mContext.drawableOf(renderable);
+    scene::Geometry const& geometry = drawable.geometry;
+    scene::Material const& material = *drawable.material->material;
+    scene::Deformation const* const deformation = mContext.deformationOf(renderable);
     VertexBufferState const* const vertices = stateBehind(mContext.engine.vertexBuffers, geometry.vertices);
     IndexBufferState const* const indices = stateBehind(mContext.engine.indexBuffers, geometry.indices);
     GltfMergePrimitive primitive;
@@ -155,34 +356,26 @@ Result<GltfMergePrimitive> SavedGeometry::read(scene::Geometry const& geometry, 
                                                 : loadAt<uint32_t>((*list)->data(), i));
     primitive.mode = modeOf(mContext.engine.layouts[geometry.layout].topology);
     const std::vector<uint32_t> used = usedVertices(primitive.own.indices, vertices->vertexCount);
-    const auto reads = [&](Attribute attribute) {
-        return (material.package.requiredAttributes >> static_cast<uint32_t>(attribute) & 1) != 0;
-    };
+    SkinAttributes skin;
     for (uint8_t i = 0; i < vertices->layout.attributeCount; ++i) {
         backend::VertexAttribute const& attribute = vertices->layout.attributes[i];
+        const auto which = static_cast<Attribute>(attribute.location);
+        if (!isWritten(which, material, deformation)) continue;
         std::byte const* const from = streams[attribute.buffer] + attribute.offset;
         const size_t stride = vertices->layout.buffers[attribute.buffer].stride;
-        const auto each = [&](auto const& add) {
-            for (const uint32_t vertex : used) add(vectorAt(from + size_t{ vertex } * stride, attribute.format));
-        };
-        switch (static_cast<Attribute>(attribute.location)) {
-        case Attribute::Position:
-            each([&](float4 const& v) { primitive.own.positions.push_back(float3(v)); });
-            break;
-        case Attribute::Tangents:
-            if (!material.isLit()) break;
-            each([&](float4 const& v) { primitive.own.normals.push_back(glm::normalize(frameOf(v).normal)); });
-            break;
-        case Attribute::Color:
-            if (reads(Attribute::Color)) each([&](float4 const& v) { primitive.own.colors.push_back(v); });
-            break;
-        case Attribute::Uv0: // v of the engine's materials points up
-            if (reads(Attribute::Uv0)) each([&](float4 const& v) { primitive.own.uvs.emplace_back(v.x, 1 - v.y); });
-            break;
-        default:
-            break;
-        }
+        std::vector<float4> values;
+        for (const uint32_t vertex : used)
+            values.push_back(vectorAt(from + size_t{ vertex } * stride, attribute.format));
+        addAttribute(which, attribute.format, std::move(values), deformation, skin, primitive);
     }
+    if (deformation && deformation->skin) {
+        const size_t bones = mContext.scene.data.deformations.skin(deformation->skin).bones.size();
+        if (const size_t changed = addSkin(std::move(skin), bones, primitive); changed > 0)
+            mContext.warn("'{}': weights of {} vertices did not have a sum of 1 and were scaled, as glTF wants them",
+                          vertices->name, changed);
+    }
+    if (deformation && deformation->morph)
+        if (Result<void> added = addTargets(*deformation->morph, used, primitive); !added) return added.error();
     return primitive;
 }
 

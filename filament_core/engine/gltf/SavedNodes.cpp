@@ -41,13 +41,14 @@ class NodeSaver {
 public:
     NodeSaver(SaveContext& context, GltfSaveOptions const& options)
             : mContext(context), mScene(context.scene), mData(context.scene.data), mOptions(options),
-              mMaterials(context), mGeometry(context) {}
+              mMaterials(context), mGeometry(context), mSkins(context) {}
 
     Result<void> run() {
         if (Result<void> found = findCopies(); !found) return found;
         sortAttached();
         if (Result<void> visited = visitAll(); !visited) return visited;
         if (Result<void> added = addLoose(); !added) return added;
+        mSkins.finish();
         saveSurroundings(mContext, mOptions);
         warnAboutTheRest();
         return {};
@@ -142,6 +143,7 @@ private:
             open.pop_back();
             const Result<uint32_t> written = write(next.node, next.parent);
             if (!written) return written.error();
+            mSkins.know(next.node, *written, *written != next.parent);
             push(next.node, *written, open);
         }
         return {};
@@ -431,10 +433,19 @@ private:
         return mOwn.contains(slot) ? addRenderables(slot, written) : Result<void>();
     }
 
-    /// As a mesh of the node, or of one below it if that is one of a file, or if they are hidden.
+    /// As a mesh of the node, or of one below it if that is one of a file, or if they are hidden. What is deformed has a
+    /// node of its own: all primitives of a mesh have as many morph targets.
     Result<void> addRenderables(uint32_t slot, uint32_t written) {
         for (const bool areHidden : { false, true }) {
-            const Result<uint32_t> mesh = ownMesh(mOwn[slot], areHidden);
+            std::vector<Renderable> plain;
+            for (const Renderable renderable : mOwn[slot]) {
+                if (mContext.isHidden(renderable) != areHidden || isSplats(renderable)) continue;
+                if (!mContext.deformationOf(renderable))
+                    plain.push_back(renderable);
+                else if (Result<void> added = addDeformed(renderable, areHidden, written); !added)
+                    return added;
+            }
+            const Result<uint32_t> mesh = ownMesh(plain);
             if (!mesh) return mesh.error();
             if (*mesh == kNone) continue;
             if (written != kNone && nodes()[written].copy == kNone && nodes()[written].mesh == kNone && !areHidden)
@@ -445,11 +456,22 @@ private:
         return {};
     }
 
-    Result<uint32_t> ownMesh(std::vector<Renderable> const& renderables, bool areHidden) {
+    Result<void> addDeformed(Renderable renderable, bool isHidden, uint32_t written) {
+        const Result<uint32_t> mesh = ownMesh({ renderable });
+        if (!mesh) return mesh.error();
+        if (*mesh == kNone) return {};
+        scene::Deformation const& by = *mContext.deformationOf(renderable);
+        GltfMergeNode node{ .name = mContext.merge.meshes[*mesh].name, .mesh = *mesh, .isHidden = isHidden };
+        if (by.morph && by.morph->targetCount > 0) node.weights = by.weights;
+        const uint32_t at = add(std::move(node), written);
+        if (by.skin) mSkins.use(by.skin, at, written);
+        return {};
+    }
+
+    Result<uint32_t> ownMesh(std::vector<Renderable> const& renderables) {
         GltfMergeMesh mesh;
         std::vector<uint32_t> key;
         for (const Renderable renderable : renderables) {
-            if (mContext.isHidden(renderable) != areHidden || isSplats(renderable)) continue;
             scene::Drawable const& drawable = mContext.drawableOf(renderable);
             const Result<SavedMaterial> saved = mMaterials.find(*drawable.material);
             if (!saved) return saved.error();
@@ -460,23 +482,20 @@ private:
             key.insert(key.end(), { geometry.vertices.index(), geometry.indices.index(), geometry.firstIndex,
                                     geometry.indexCount, geometry.layout, *material });
             mesh.primitives.push_back({ .material = *material });
-            mToRead.push_back({ &drawable, mesh.primitives.size() - 1 });
-            if (mContext.isDeformed(renderable))
-                mContext.warn(
-                        "'{}': its skin and morph targets are not written; load it from a glTF file that has them",
-                        drawable.material->name);
+            if (scene::Deformation const* const by = mContext.deformationOf(renderable))
+                key.insert(key.end(), { by->skin ? 1u : 0u, by->morph ? by->morph->deltas.index() : kNone });
+            mToRead.push_back({ renderable, mesh.primitives.size() - 1 });
         }
         const std::vector<ToRead> reads = std::exchange(mToRead, {});
         if (mesh.primitives.empty()) return kNone;
         key.push_back(kNone); // no key of a mesh of a file
         if (const auto known = mOwnMeshes.find(key); known != mOwnMeshes.end()) return known->second;
         for (ToRead const& read : reads) {
-            Result<GltfMergePrimitive> geometry =
-                    mGeometry.read(read.drawable->geometry, *read.drawable->material->material);
+            Result<GltfMergePrimitive> geometry = mGeometry.read(read.renderable);
             if (!geometry) return geometry.error();
             geometry->material = mesh.primitives[read.primitive].material;
             mesh.primitives[read.primitive] = std::move(*geometry);
-            if (mesh.name.empty()) mesh.name = nameOf(read.drawable->geometry.vertices);
+            if (mesh.name.empty()) mesh.name = nameOf(mContext.drawableOf(read.renderable).geometry.vertices);
         }
         std::erase_if(mesh.primitives, [](GltfMergePrimitive const& each) { return each.own.positions.empty(); });
         if (mesh.primitives.empty()) return kNone;
@@ -531,7 +550,7 @@ private:
     }
 
     struct ToRead {
-        scene::Drawable const* drawable = nullptr;
+        Renderable renderable{};
         size_t primitive = 0;
     };
 
@@ -544,6 +563,7 @@ private:
     GltfSaveOptions const& mOptions;
     SavedMaterials mMaterials;
     SavedGeometry mGeometry;
+    SavedSkins mSkins;
     std::vector<Copy> mCopies;
     std::unordered_map<uint32_t, uint32_t> mVersions;        // of vertices of models, by buffer, as they were loaded
     std::unordered_map<uint32_t, PartOf> mParts;             // by slot of the node
