@@ -161,7 +161,7 @@ struct Defaults {
     std::map<std::pair<ParameterType, shader::SamplerFormat>, Texture> standIns;
     std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
     std::vector<ToneTable> toneTables;
-    backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
+    backend::BufferHandle instanceIds; ///< see passes::kFirstPairId
     backend::BufferHandle noFogCells;  ///< FrameResources::noFogCells
 };
 

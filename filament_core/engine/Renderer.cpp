@@ -237,7 +237,6 @@ struct Renderer::Impl final : engine::Dependent {
         context.views = data.views();
         context.viewBuffers = data.viewBuffers();
         context.deformations = data.deformations();
-        context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
         probes.copy(context.packet.probes, *commands);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);

@@ -93,39 +93,34 @@ void DeformationBuffer::makeFixed(CommandStream& stream, CommandBuffer& commands
     commands.record(CmdCreateTexture{ texture,
                                       { .format = Format::RGBA32F,
                                         .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
-                                        .debugName = "no bones or morph targets" } });
+                                        .debugName = "no morph targets" } });
     commands.record(CmdUploadTexture{ texture, 0, 0, 1, { 0, 0, 1, 1 }, std::as_bytes(std::span(kZero)) });
     both.complete();
     mNoTexels = texture.keep();
 }
 
-BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer& commands, TextureHandle deltas,
-                                            bool isOfMotion) {
-    const auto known = std::ranges::find_if(
-            mGroups, [&](Group const& group) { return group.deltas == deltas && group.isOfMotion == isOfMotion; });
+BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer& commands, TextureHandle deltas) {
+    const auto known = std::ranges::find(mGroups, deltas, &Group::deltas);
     if (known != mGroups.end()) {
         known->lastUse = mFrame;
         return known->handle;
     }
-    const std::array<BindGroupEntry, 4> entries{ {
-            { .binding = shader::kBindingBones, .texture = mBones ? mBones : mNoTexels, .sampler = mNearest },
-            { .binding = shader::kBindingDeformation, .buffer = mBuffer, .size = kWindow },
-            { .binding = shader::kBindingMorphDeltas, .texture = deltas, .sampler = mNearest },
-            { .binding = shader::kBindingLastDeformation, .buffer = mBuffer, .size = kWindow },
-    } };
-    const BindGroupLayout layout = shader::deformationGroupLayout(isOfMotion);
+    const std::array entries{
+        BindGroupEntry{ .binding = shader::kBindingBones, .texture = mBones, .sampler = mNearest },
+        BindGroupEntry{ .binding = shader::kBindingDeformation, .buffer = mBuffer, .size = kWindow },
+        BindGroupEntry{ .binding = shader::kBindingMorphDeltas, .texture = deltas, .sampler = mNearest },
+    };
     // Room comes first: a group that is recorded must be remembered, or it would never be destroyed.
     mGroups.reserve(mGroups.size() + 1);
     NewHandle group(stream, stream.allocateBindGroup());
-    commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "deformation" } });
-    mGroups.push_back({ deltas, isOfMotion, group.keep(), mFrame });
+    commands.record(CmdCreateBindGroup{ group, { shader::deformationGroupLayout(), entries, "deformation" } });
+    mGroups.push_back({ deltas, group.keep(), mFrame });
     return mGroups.back().handle;
 }
 
 void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, CommandBuffer& commands,
                                prepare::DeformationList const& list) {
     mBinds.clear();
-    mLastBinds.clear();
     if (list.bytes == 0 && mGroups.empty()) return;
     ++mFrame;
     dropUnused(stream, commands, kKeptFrames);
@@ -134,24 +129,14 @@ void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, Com
     reserve(stream, commands, list.bytes);
     const uint32_t boneRoom = uploadBones(stream, jobs, commands, list);
     const std::span<std::byte> memory = commands.allocate(list.bytes, jobs::kCacheLineBytes);
-    prepare::writeDeformations(jobs, list, boneRoom, memory);
+    prepare::writeDeformations(list, boneRoom, memory);
     commands.recordAdopted(CmdUpdateBuffer{ mBuffer, 0, memory });
     mBinds.resize(list.places.size());
-    mLastBinds.resize(list.last.size());
-    for (size_t i = 0; i < mBinds.size(); ++i) bind(stream, commands, list.places[i], i);
-}
-
-// Offsets are in the order of the layout.
-void DeformationBuffer::bind(CommandStream& stream, CommandBuffer& commands, prepare::DeformationPlace const& place,
-                             size_t slot) {
-    const TextureHandle deltas = place.deltas ? place.deltas : mNoTexels;
-    if (place.weights != prepare::kNowhere) {
-        mBinds[slot] = { groupFor(stream, commands, deltas, false), shader::kGroupDeformation, 1, { place.weights } };
-    }
-    if (place.lastWeights != prepare::kNowhere) {
-        mLastBinds[slot] = {
-            groupFor(stream, commands, deltas, true), shader::kGroupDeformation, 2, { place.weights, place.lastWeights }
-        };
+    for (size_t i = 0; i < mBinds.size(); ++i) {
+        prepare::DeformationPlace const& place = list.places[i];
+        if (place.now.begin == prepare::kNowhere) continue;
+        const TextureHandle deltas = place.deltas ? place.deltas : mNoTexels;
+        mBinds[i] = { groupFor(stream, commands, deltas), shader::kGroupDeformation, 1, { place.block } };
     }
 }
 

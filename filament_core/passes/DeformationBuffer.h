@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DeformationBuffer: skins and morph weights of one frame on the device, and their bind groups: one for each texture
-/// of morph targets in use, with windows of the buffer as dynamic offsets.
+/// DeformationBuffer: poses of one frame on the device, and their bind groups: one for each texture of morph targets in
+/// use, with windows of the buffer of uniforms as dynamic offsets.
 ///   In      a DeformationList.   Out: what to bind, by slot of scene::Deformations.
 ///   Memory  a sampler, a texel, and a buffer and a texture of bones that grow to the largest frame and stay; none
 ///           before the first frame with deformations. A group that no frame used for kKeptFrames frames is
 ///           dropped, with everything known about its texture.
-///   Limits  the bones that fit into a texture of the device: at least a million. Meshes of more are drawn at rest.
+///   Limits  the bones and weights that fit into a texture of the device: at least a million bones. Further meshes are
+///           drawn at rest.
 ///   Fails   std::bad_alloc; recorded commands and remembered objects still agree.
 ///   Thread  the app thread, with the workers for the data. Records outside of passes.
 #pragma once
@@ -28,13 +29,10 @@ public:
     void destroy(backend::CommandStream& stream, backend::CommandBuffer& commands);
 
     std::span<const backend::CmdBindGroup> groups() const { return mBinds; }
-    /// The same with the last frame's, for variants with kVariantMotion; unused ones are not set.
-    std::span<const backend::CmdBindGroup> lastGroups() const { return mLastBinds; }
 
 private:
     struct Group {
         backend::TextureHandle deltas;
-        bool isOfMotion = false;
         backend::BindGroupHandle handle;
         uint32_t lastUse = 0;
     };
@@ -44,13 +42,11 @@ private:
     uint32_t uploadBones(backend::CommandStream& stream, jobs::JobSystem& jobs, backend::CommandBuffer& commands,
                          prepare::DeformationList const& list);
     backend::BindGroupHandle groupFor(backend::CommandStream& stream, backend::CommandBuffer& commands,
-                                      backend::TextureHandle deltas, bool isOfMotion);
-    void bind(backend::CommandStream& stream, backend::CommandBuffer& commands, prepare::DeformationPlace const& place,
-              size_t slot);
+                                      backend::TextureHandle deltas);
     void makeFixed(backend::CommandStream& stream, backend::CommandBuffer& commands);
     void dropUnused(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t keptFrames);
 
-    backend::TextureHandle mNoTexels; ///< replaces missing bones and morph targets
+    backend::TextureHandle mNoTexels; ///< replaces missing morph targets
     backend::SamplerHandle mNearest;
     backend::BufferHandle mBuffer;
     uint32_t mBytes = 0; ///< capacity for blocks
@@ -58,7 +54,7 @@ private:
     uint32_t mRows = 0; ///< of bones
     uint32_t mFrame = 0;
     std::vector<Group> mGroups; // a few: searched
-    std::vector<backend::CmdBindGroup> mBinds, mLastBinds;
+    std::vector<backend::CmdBindGroup> mBinds;
 };
 
 } // namespace filament_core::passes

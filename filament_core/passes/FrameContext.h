@@ -56,10 +56,9 @@ struct FrameContext {
     FrameQuads splats{};                  ///< of FramePacket::splats
 
     // Where FrameData has put the packet on the device:
-    std::span<const ViewGroup> views;                        ///< by view of the packet
-    std::array<backend::BindGroupEntry, 3> viewBuffers{};    ///< FrameData::viewBuffers()
-    std::span<const backend::CmdBindGroup> deformations;     ///< by DrawCall::deformation
-    std::span<const backend::CmdBindGroup> lastDeformations; ///< with those of the last frame: of what moved
+    std::span<const ViewGroup> views;                     ///< by view of the packet
+    std::array<backend::BindGroupEntry, 3> viewBuffers{}; ///< FrameData::viewBuffers()
+    std::span<const backend::CmdBindGroup> deformations;  ///< by DrawCall::deformation
 
     prepare::FrameSettings const& settings() const { return packet.settings; }
 };

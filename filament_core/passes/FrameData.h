@@ -53,7 +53,6 @@ public:
     std::array<backend::BindGroupEntry, 3> viewBuffers() const;
     /// By slot of scene::Deformations; those that are not visible are not set.
     std::span<const backend::CmdBindGroup> deformations() const { return mSets[mCurrent].deformation.groups(); }
-    std::span<const backend::CmdBindGroup> lastDeformations() const { return mSets[mCurrent].deformation.lastGroups(); }
 
 private:
     /// An array of equal blocks.

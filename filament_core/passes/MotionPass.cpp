@@ -32,7 +32,7 @@ std::span<const DrawCall> drawsOf(FrameContext const& context) {
 
 void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, context.packet.motionView);
-    DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
+    DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
                        context.settings().quality.textureFilter };
     draws.hasPairs = true;
     recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);

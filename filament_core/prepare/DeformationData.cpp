@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
-#include <limits>
+#include <utility>
 
 namespace filament_core::prepare {
 namespace {
@@ -19,7 +16,8 @@ using scene::Deformation;
 // A uniform offset that every device accepts.
 constexpr uint32_t kAlignment = 256;
 constexpr size_t kBlocksPerJob = 32;
-constexpr size_t kHeaderWords = offsetof(shader::DeformationUniforms, targets) / sizeof(float4);
+static_assert(sizeof(shader::DeformationUniforms) <= kAlignment);
+constexpr uint32_t kTexelsOfBone = 3;
 
 /// Of the renderable at position `at`: the items of a range are in the order of the scene.
 bool isSeen(VisibleItems const& view, uint32_t at) {
@@ -41,12 +39,12 @@ bool isVisible(scene::Renderables const& renderables, Deformation const& deforma
     });
 }
 
-/// The blocks of skins, which have no weights: one of a kind. A few kinds are remembered; more only repeat blocks.
-class SkinBlocks {
+/// The blocks of uniforms: one of a kind. A few kinds are remembered; more only repeat blocks.
+class KindBlocks {
 public:
     /// Where the block of this kind is; kNowhere: the caller places it at `next`.
-    uint32_t find(uint32_t kind, uint32_t next) {
-        Entry& entry = mEntries[kind % mEntries.size()];
+    uint32_t find(scene::DeformationKind const& kind, uint32_t next) {
+        Entry& entry = mEntries[hashWords(kind.skin, kind.targets.bits) % mEntries.size()];
         if (entry.offset != kNowhere && entry.kind == kind) return entry.offset;
         entry = { kind, next };
         return kNowhere;
@@ -54,80 +52,61 @@ public:
 
 private:
     struct Entry {
-        uint32_t kind = 0, offset = kNowhere;
+        scene::DeformationKind kind{};
+        uint32_t offset = kNowhere;
     };
     std::array<Entry, 64> mEntries{};
 };
 
-/// The smallest magnitude of a weight that is kept, and how many of exactly this magnitude are.
-struct Threshold {
-    float magnitude = 0;
-    size_t ties = 0;
-};
-
-size_t countLarger(std::span<const float> weights, float magnitude) {
-    return static_cast<size_t>(
-            std::ranges::count_if(weights, [&](float weight) { return std::abs(weight) > magnitude; }));
+uint32_t countActive(std::span<const float> weights) {
+    return static_cast<uint32_t>(std::ranges::count_if(weights, [](float weight) { return weight != 0; }));
 }
 
-/// Of the kMaxActiveTargets weights of the largest magnitude; bisects the bits of floats, which are in their order.
-Threshold thresholdOf(std::span<const float> weights) {
-    if (weights.size() <= shader::kMaxActiveTargets || countLarger(weights, 0) <= shader::kMaxActiveTargets) return {};
-    uint32_t below = 0, enough = std::bit_cast<uint32_t>(std::numeric_limits<float>::max());
-    while (enough - below > 1) {
-        const uint32_t middle = below + (enough - below) / 2;
-        const bool fits = countLarger(weights, std::bit_cast<float>(middle)) <= shader::kMaxActiveTargets;
-        (fits ? enough : below) = middle;
-    }
-    const auto magnitude = std::bit_cast<float>(enough);
-    return { magnitude, shader::kMaxActiveTargets - countLarger(weights, magnitude) };
+/// Room for the record of these weights.
+uint32_t recordBones(std::span<const float> weights) {
+    return (1 + countActive(weights) + kTexelsOfBone - 1) / kTexelsOfBone;
 }
 
-/// Skin and targets of a deformation, now or in the last frame.
-struct Shape {
-    Deformation const& deformation;
-    std::span<const float> weights;
-    size_t boneCount;
-};
-
-/// The targets whose weight is not 0, in their order; see DeformationUniforms.
-uint32_t writeTargets(std::span<const float> weights, std::span<float4> targets) {
-    Threshold kept = thresholdOf(weights);
-    uint32_t next = 0;
-    for (size_t target = 0; target < weights.size(); ++target) {
-        const float magnitude = std::abs(weights[target]);
-        // Among weights of exactly the smallest magnitude the first ones stay, so that the choice needs no further
-        // order.
-        const bool isTie = kept.ties > 0 && magnitude == kept.magnitude;
-        if (!(magnitude > kept.magnitude) && !isTie) continue;
-        kept.ties -= isTie;
-        targets[next++] = float4(weights[target], static_cast<float>(target), 0, 0);
-    }
-    return next;
+/// Without room for all of it, it has no weights, and without room for that it is not there.
+void writeRecord(std::span<shader::BoneData> bones, PosePlace const& place, std::span<const float> weights) {
+    if (place.begin >= bones.size()) return;
+    const uint32_t needed = recordBones(weights);
+    const bool fits = needed <= bones.size() - place.begin;
+    const std::span record = bones.subspan(place.begin, fits ? needed : 1);
+    // What is not written below is uploaded, too, and the memory has bytes of earlier frames.
+    std::ranges::fill(record, shader::BoneData{});
+    static_assert(sizeof(shader::BoneData) == kTexelsOfBone * sizeof(float4));
+    const std::span texels(&record[0].row0, record.size() * kTexelsOfBone);
+    texels[0] = float4(fits ? countActive(weights) : 0, place.bones, 0, 0);
+    if (!fits) return;
+    size_t next = 1;
+    for (size_t target = 0; target < weights.size(); ++target)
+        if (weights[target] != 0) texels[next++] = float4(weights[target], target, 0, 0);
 }
 
-/// Fills `block`, which has the size that deformationBlock() says.
-void writeBlock(Shape const& shape, uint32_t boneRoom, std::span<std::byte> block) {
-    const std::span words(reinterpret_cast<float4*>(block.data()), block.size() / sizeof(float4));
-    // The memory is that of an upload, with bytes of earlier frames. What is not written below is uploaded, too.
-    std::memset(block.data(), 0, block.size());
-    const uint32_t active = writeTargets(shape.weights, words.subspan(kHeaderWords));
-    const bool isSkinned = shape.deformation.skin && shape.boneCount <= boneRoom;
-    const glm::uvec4 bones(isSkinned ? boneRoom - shape.boneCount : 0, isSkinned ? shape.boneCount - 1 : 0, 0, 0);
-    words[0] = float4(active, 0, 0, isSkinned ? static_cast<float>(shape.deformation.jointSets) : 0.0f);
-    if (scene::MorphTargets const* const morph = shape.deformation.morph) {
-        words[0].y = static_cast<float>(morph->texels);
-        words[0].z = static_cast<float>(morph->vertexCount);
+shader::DeformationUniforms uniformsOf(Deformation const& deformation, uint32_t bones, uint32_t boneRoom) {
+    shader::DeformationUniforms uniforms{ .shape = float4(0), .bones = { 0, 0, boneRoom, 0 } };
+    if (deformation.skin && bones <= boneRoom) {
+        uniforms.bones.x = boneRoom - bones;
+        uniforms.bones.y = bones - 1;
+        uniforms.shape.w = deformation.jointSets;
     }
-    std::memcpy(&words[1], &bones, sizeof bones);
+    if (scene::MorphTargets const* const morph = deformation.morph) {
+        uniforms.shape.y = static_cast<float>(morph->texels);
+        uniforms.shape.z = static_cast<float>(morph->vertexCount);
+    }
+    return uniforms;
 }
 
 } // namespace
 
-uint32_t deformationBlock(std::span<const float> weights) {
-    const size_t active = std::min<size_t>(countLarger(weights, 0), shader::kMaxActiveTargets);
-    const size_t bytes = (kHeaderWords + active) * sizeof(float4);
-    return static_cast<uint32_t>((bytes + kAlignment - 1) / kAlignment * kAlignment);
+uint32_t takeBones(DeformationList& list, size_t count) {
+    return std::exchange(list.boneCount, list.boneCount + static_cast<uint32_t>(count));
+}
+
+uint32_t placePose(DeformationList& list, uint32_t bones, Deformation const& deformation,
+                   std::span<const float> weights) {
+    return deformation.morph ? takeBones(list, recordBones(weights)) : bones;
 }
 
 uint64_t hashWeights(Deformation const& deformation, uint64_t seed) {
@@ -145,26 +124,23 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     const auto places = arena.arrayForOverwrite<DeformationPlace>(all.size());
     const auto bones = arena.arrayForOverwrite<uint32_t>(skins.size());
     std::ranges::fill(bones, kNowhere);
-    SkinBlocks blocks;
+    KindBlocks blocks;
     for (size_t i = 0; i < all.size(); ++i) {
         const auto slot = static_cast<uint32_t>(i);
         places[i] = {};
         if (!isVisible(scene.renderables, all[i], views)) continue;
-        places[i].bones = 0; // without a skin it is not read
+        DeformationPlace& place = places[i];
         if (all[i].skin) {
             uint32_t& first = bones[all[i].skin.index()];
             // Several meshes may have one skin: its bones are placed with the first of them.
-            if (first == kNowhere) {
-                first = list.boneCount;
-                list.boneCount += static_cast<uint32_t>(skins[all[i].skin.index()].bones.size());
-            }
-            places[i].bones = first;
+            if (first == kNowhere) first = takeBones(list, skins[all[i].skin.index()].bones.size());
+            place.now.bones = first;
         }
-        const uint32_t shared = all[i].morph ? kNowhere : blocks.find(scene.deformations.kindOf(slot), list.bytes);
-        places[i].ownsBlock = shared == kNowhere;
-        places[i].weights = places[i].ownsBlock ? list.bytes : shared;
-        if (places[i].ownsBlock) list.bytes += deformationBlock(all[i].weights);
-        if (all[i].morph) places[i].deltas = all[i].morph->deltas;
+        place.now.begin = placePose(list, place.now.bones, all[i], all[i].weights);
+        const uint32_t shared = blocks.find(scene.deformations.kindOf(slot), list.bytes);
+        place.ownsBlock = shared == kNowhere;
+        place.block = place.ownsBlock ? std::exchange(list.bytes, list.bytes + kAlignment) : shared;
+        if (all[i].morph) place.deltas = all[i].morph->deltas;
     }
     list.places = places;
     list.bones = bones;
@@ -180,27 +156,30 @@ void writeBones(jobs::JobSystem& jobs, DeformationList const& list, std::span<sh
         for (size_t i = begin; i < end; ++i) put(list.bones[i], list.skins[i].bones);
     });
     jobs::parallelFor<"last bones">(jobs, list.last.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) put(list.places[i].lastBones, list.last[i].bones);
+        for (size_t i = begin; i < end; ++i)
+            if (list.places[i].ownsLastBones) put(list.places[i].last.bones, list.last[i].bones);
     });
-}
-
-void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, uint32_t boneRoom,
-                       std::span<std::byte> memory) {
-    FILAMENT_ASSERT(memory.size() == list.bytes, "writeDeformations: the memory has the size that the list says");
-    const auto put = [&](uint32_t at, Shape const& shape) {
-        writeBlock(shape, boneRoom, memory.subspan(at, deformationBlock(shape.weights)));
-    };
     jobs::parallelFor<"morph weights">(jobs, list.places.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             DeformationPlace const& place = list.places[i];
-            Deformation const& now = list.deformations[i];
-            if (!place.ownsBlock) continue;
-            const size_t bones = now.skin ? list.skins[now.skin.index()].bones.size() : 0;
-            put(place.weights, { now, now.weights, bones });
-            if (place.lastWeights != kNowhere && place.lastWeights != place.weights)
-                put(place.lastWeights, { now, list.last[i].weights, bones });
+            if (!list.deformations[i].morph || place.now.begin == kNowhere) continue;
+            writeRecord(bones, place.now, list.deformations[i].weights);
+            if (place.last.begin != kNowhere) writeRecord(bones, place.last, list.last[i].weights);
         }
     });
+}
+
+void writeDeformations(DeformationList const& list, uint32_t boneRoom, std::span<std::byte> memory) {
+    FILAMENT_ASSERT(memory.size() == list.bytes, "writeDeformations: the memory has the size that the list says");
+    // The memory is that of an upload, with bytes of earlier frames, and all of it is uploaded.
+    std::ranges::fill(memory, std::byte{});
+    for (size_t i = 0; i < list.places.size(); ++i) {
+        if (!list.places[i].ownsBlock) continue;
+        Deformation const& deformation = list.deformations[i];
+        const size_t bones = deformation.skin ? list.skins[deformation.skin.index()].bones.size() : 0;
+        const shader::DeformationUniforms uniforms = uniformsOf(deformation, static_cast<uint32_t>(bones), boneRoom);
+        std::memcpy(&memory[list.places[i].block], &uniforms, sizeof uniforms);
+    }
 }
 
 } // namespace filament_core::prepare

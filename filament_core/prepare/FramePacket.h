@@ -29,13 +29,20 @@ namespace filament_core::prepare {
 
 inline constexpr uint32_t kNowhere = ~0u;
 
-/// Of one deformation: its first bone among those of the frame, and a byte offset into the buffer of the frame;
-/// kNowhere: it is not visible.
+/// Where a pose is among those of the frame, in bones (shader::kBonesPerRow).
+struct PosePlace {
+    uint32_t begin = kNowhere; ///< ObjectData::flags.w; kNowhere: it is not uploaded
+    uint32_t bones = 0;        ///< the first bone of the skin
+};
+
+/// Of one deformation.
 struct DeformationPlace {
-    uint32_t bones = kNowhere, weights = kNowhere;
-    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: unused
-    backend::TextureHandle deltas;                         ///< none: no morph targets
-    bool ownsBlock = false; ///< at `weights`; false: it is that of an earlier deformation of the same kind
+    PosePlace now;                 ///< kNowhere: it is not visible
+    PosePlace last;                ///< in the last frame; kNowhere: unused
+    uint32_t block = kNowhere;     ///< of uniforms, a byte offset into the buffer of the frame
+    bool ownsBlock = false;        ///< false: it is that of an earlier deformation of the same kind
+    bool ownsLastBones = false;    ///< false: they are those of another deformation with the same skin
+    backend::TextureHandle deltas; ///< none: no morph targets
 };
 
 /// Where the objects of a view are read from; writeObjects() (ObjectData.h) converts them for the shaders.
@@ -50,12 +57,12 @@ struct ObjectList {
     size_t size() const { return order.size(); }
     bool empty() const { return order.empty(); }
     /// ObjectData::flags.w
-    float firstBone(uint32_t renderable) const {
+    float poseBegin(uint32_t renderable) const {
         const uint32_t slot = places.empty() ? scene::kNotDeformed : deformations[renderable];
         if (slot == scene::kNotDeformed) return 0;
         DeformationPlace const& place = places[slot];
-        const uint32_t bones = hasLastFrames && (renderable & 1) != 0 ? place.lastBones : place.bones;
-        return bones == kNowhere ? 0.0f : static_cast<float>(bones);
+        PosePlace const& pose = hasLastFrames && (renderable & 1) != 0 ? place.last : place.now;
+        return pose.begin == kNowhere ? 0.0f : static_cast<float>(pose.begin);
     }
 };
 
@@ -85,14 +92,14 @@ struct LastDeformation {
     std::span<const float> weights;
 };
 
-/// Skins and morph weights of visible objects; writeDeformations() (DeformationData.h) converts them for the shaders.
+/// Skins and morph weights of visible objects; DeformationData.h converts them for the shaders.
 struct DeformationList {
     std::span<const scene::Deformation> deformations;
     std::span<const scene::SkinRecord> skins;
     std::span<const DeformationPlace> places; ///< by slot of `deformations`
     std::span<const uint32_t> bones;          ///< by index of `skins`: its first bone, or kNowhere
-    uint32_t boneCount = 0;                   ///< of all skins
-    uint32_t bytes = 0;                       ///< of all blocks of weights; 0: nothing visible is deformed
+    uint32_t boneCount = 0;                   ///< of all skins, and the room of records of weights
+    uint32_t bytes = 0;                       ///< of all blocks of uniforms; 0: nothing visible is deformed
     std::span<const LastDeformation> last;    ///< by slot; none: no place has a last one
 };
 

@@ -10,11 +10,11 @@ namespace {
 uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
     for (size_t i = 0; i < list.places.size(); ++i) {
         DeformationPlace const& place = list.places[i];
-        if (place.weights == kNowhere) continue;
-        seed = hashWords(seed, i, place.bones, place.weights, place.deltas.bits);
+        if (place.now.begin == kNowhere) continue;
+        seed = hashWords(seed, i, place.now.begin, place.now.bones, place.block, place.deltas.bits);
         seed = hashWeights(list.deformations[i], seed);
-        if (place.lastWeights == kNowhere) continue;
-        seed = hashWords(seed, place.lastBones, place.lastWeights);
+        if (place.last.begin == kNowhere) continue;
+        seed = hashWords(seed, place.last.begin, place.last.bones);
         seed = hashBytes(std::as_bytes(list.last[i].bones), seed);
         seed = hashBytes(std::as_bytes(list.last[i].weights), seed);
     }

@@ -92,7 +92,7 @@ void numberObjects(Arena& arena, scene::SceneData const& scene, FramePacket& pac
                 const uint32_t at = main.objects.order[draw.firstObject + nth].renderable;
                 shader::IrradianceField& record = records[draw.firstField + nth];
                 record.object = objectData(scene.renderables.placement[at], main.objects.cameraWorld);
-                record.object.flags.w = main.objects.firstBone(at);
+                record.object.flags.w = main.objects.poseBegin(at);
                 record.center.w = numbers.at(at);
             }
         }

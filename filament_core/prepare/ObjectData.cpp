@@ -37,7 +37,7 @@ void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shade
             __builtin_prefetch(&list.placements[list.order[std::min(i + kAhead, end - 1)].renderable]);
             SortItem const& item = list.order[i];
             write(objects[i], list.placements[item.renderable], list.cameraWorld, fadeOf(item.draw));
-            if (hasBones) objects[i].flags.w = list.firstBone(item.renderable);
+            if (hasBones) objects[i].flags.w = list.poseBegin(item.renderable);
         }
     });
 }

@@ -181,7 +181,7 @@ void placeFields(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& sc
             if (fitted[i] != 0) entry = { box, placer.fit(box, environment), true };
             errors[i] = entry.field.error;
             fields[i].object = objectData(scene.renderables.placement[at], main.objects.cameraWorld);
-            fields[i].object.flags.w = main.objects.firstBone(at);
+            fields[i].object.flags.w = main.objects.poseBegin(at);
             write(fields[i], entry.field, box, makeViewSpace(view).cameraWorld, packet.grids.unit);
         }
     });

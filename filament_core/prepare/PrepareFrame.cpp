@@ -34,9 +34,8 @@ EnvironmentPacket environmentOf(scene::SceneData const& scene, GridPacket const&
 }
 
 uint32_t countDeformed(DeformationList const& list) {
-    return static_cast<uint32_t>(std::ranges::count_if(list.places, [](DeformationPlace const& place) {
-        return place.bones != kNowhere || place.weights != kNowhere;
-    }));
+    return static_cast<uint32_t>(std::ranges::count_if(
+            list.places, [](DeformationPlace const& place) { return place.now.begin != kNowhere; }));
 }
 
 uint32_t copiedPixels(std::span<const SceneColorCopy> pictures) {

@@ -140,14 +140,18 @@ void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::spa
     if (slots.empty()) return;
     const auto places = arena.copy(list.places);
     const auto deformations = arena.array<LastDeformation>(places.size());
+    const auto bones = arena.arrayForOverwrite<uint32_t>(list.skins.size()); // where those of each skin begin
+    std::ranges::fill(bones, kNowhere);
     for (const uint32_t slot : slots) {
+        DeformationPlace& place = places[slot];
         deformations[slot] = *last.deformation(scene, slot);
-        places[slot].lastBones = list.boneCount;
-        list.boneCount += static_cast<uint32_t>(deformations[slot].bones.size());
-        places[slot].lastWeights = places[slot].weights;
-        if (!list.deformations[slot].morph) continue; // the block says the same of both frames
-        places[slot].lastWeights = list.bytes;
-        list.bytes += deformationBlock(deformations[slot].weights);
+        if (const Skin skin = list.deformations[slot].skin) {
+            uint32_t& first = bones[skin.index()];
+            place.ownsLastBones = first == kNowhere;
+            if (place.ownsLastBones) first = takeBones(list, deformations[slot].bones.size());
+            place.last.bones = first;
+        }
+        place.last.begin = placePose(list, place.last.bones, list.deformations[slot], deformations[slot].weights);
     }
     list.places = places;
     list.last = deformations;

@@ -84,13 +84,13 @@ void Deformations::remove(uint32_t slot) {
     --mCount;
 }
 
-uint32_t Deformations::kindOf(uint32_t slot) const {
-    constexpr uint32_t kAlike = 1u << 31, kTwoSets = 1u << 30;
+DeformationKind Deformations::kindOf(uint32_t slot) const {
+    constexpr uint32_t kDeformed = 1u << 31, kTwoSets = 1u << 30;
     Deformation const& deformation = mDeformations[slot];
-    if (deformation.morph || !deformation.skin) return slot;
-    const auto bones = static_cast<uint32_t>(skin(deformation.skin).bones.size());
-    FILAMENT_ASSERT(slot < kAlike && bones < kTwoSets - 1, "a skin has fewer than 2^30 - 1 bones");
-    return kAlike | (deformation.jointSets > 1 ? kTwoSets : 0) | bones;
+    const size_t bones = deformation.skin ? skin(deformation.skin).bones.size() : 0;
+    FILAMENT_ASSERT(bones < kTwoSets, "a skin has fewer than 2^30 bones");
+    return { kDeformed | (deformation.jointSets > 1 ? kTwoSets : 0) | static_cast<uint32_t>(bones),
+             deformation.morph ? deformation.morph->deltas : backend::TextureHandle{} };
 }
 
 void Deformations::beginMoving(size_t nodeSlots) {

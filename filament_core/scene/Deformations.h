@@ -76,9 +76,9 @@ public:
     uint32_t add(Deformation deformation);
     void bind(uint32_t slot, Renderable renderable) { mDeformations[slot].renderable = renderable; }
     void remove(uint32_t slot);
-    /// Equal for what can share a draw: skins with the same numbers of bones and of sets of joints. Everything else
-    /// that these need is data of each object. Morph targets are applied by draws of their own: each has its weights.
-    uint32_t kindOf(uint32_t slot) const;
+    /// Equal for what can share a draw: the same morph targets, and skins with the same numbers of bones and of sets of
+    /// joints. Bones and weights are data of each object.
+    DeformationKind kindOf(uint32_t slot) const;
     Deformation& operator[](uint32_t slot) { return mDeformations[slot]; }
     std::span<const Deformation> all() const { return mDeformations; }
 

@@ -39,7 +39,7 @@ bool staysInBounds(Drawable const& drawable) {
 bool occludes(Drawable const& drawable) {
     InstanceRaster const& raster = drawable.material->raster;
     const bool hasFaces = raster.cullingDisabled || raster.culling != shader::Culling::FrontAndBack;
-    return drawable.geometry.occluder && hasFaces && drawable.deformedAs == kNotDeformed && staysInBounds(drawable) &&
+    return drawable.geometry.occluder && hasFaces && !drawable.deformedAs.isDeformed() && staysInBounds(drawable) &&
            depthOrder(*drawable.material) == 0 && !raster.stencil && !drawable.material->material->isBlended();
 }
 
@@ -74,7 +74,8 @@ size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
     const uint64_t buffers = static_cast<uint64_t>(geometry.vertices.bits) << 32 | geometry.indices.bits;
     const uint64_t range = static_cast<uint64_t>(geometry.firstIndex) << 32 | geometry.indexCount;
     const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material), drawable.properties.bits());
-    const uint64_t order = uint64_t{ drawable.deformedAs } << 32 | placeOrder(drawable.place);
+    const uint64_t kind = uint64_t{ drawable.deformedAs.targets.bits } << 32 | drawable.deformedAs.skin;
+    const uint64_t order = hashCombine(kind, placeOrder(drawable.place));
     const uint64_t rest = hashCombine(own, hashCombine(order, drawable.coarser));
     return hashCombine(hashCombine(buffers, range), rest);
 }

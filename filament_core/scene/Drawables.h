@@ -54,8 +54,16 @@ private:
     std::vector<GeometryLayout> mLayouts;
 };
 
-/// Instead of a slot of Deformations, and for Drawable::deformedAs.
+/// Instead of a slot of Deformations.
 inline constexpr uint32_t kNotDeformed = ~0u;
+
+/// Of a deformation: what is equal here can share a draw.
+struct DeformationKind {
+    uint32_t skin = 0;                ///< kDeformed, how many sets of joints a vertex has, and bones; 0: not deformed
+    backend::TextureHandle targets{}; ///< of MorphTargets; none: it has none
+    friend bool operator==(DeformationKind const&, DeformationKind const&) = default;
+    bool isDeformed() const { return skin != 0; }
+};
 
 /// What a renderable gives its draws besides geometry and material. RenderableInput, Drawable and DrawCall carry it
 /// whole, so a new property is a member here and whatever reads it.
@@ -72,7 +80,7 @@ inline constexpr uint32_t kNoLevel = ~0u;
 struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
-    uint32_t deformedAs = kNotDeformed; ///< Deformations::kindOf(): what is equal here can share a draw
+    DeformationKind deformedAs{}; ///< Deformations::kindOf()
     DrawProperties properties{};
     DrawOrder place{};
     uint32_t coarser = kNoLevel; ///< the number of the next level of detail, which differs in its triangles

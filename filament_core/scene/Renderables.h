@@ -63,7 +63,7 @@ struct RenderableInput {
     bool culled = true;
     uint32_t instanceIndex = 0;          ///< < 2^24
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
-    uint32_t deformedAs = kNotDeformed;  ///< of Drawable
+    DeformationKind deformedAs{};        ///< of Drawable
     bool castsShadows = true;
     DrawProperties properties{};
     uint8_t layers = kDefaultLayers;

@@ -145,8 +145,7 @@ Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
 std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },
-             { kGroupDeformation, kBindingDeformation },
-             { kGroupDeformation, kBindingLastDeformation } };
+             { kGroupDeformation, kBindingDeformation } };
 }
 
 Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, CompileOptions const& options) {

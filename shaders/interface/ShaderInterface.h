@@ -166,7 +166,7 @@ inline constexpr uint32_t kObjectsPerWindow = 256;
 struct ObjectData {
     float4 row0, row1, row2;
     float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance
-                  ///< index; z: how far it has faded, of level_fade.mat; w: the first bone of its skin
+                  ///< index; z: how far it has faded, of level_fade.mat; w: where its pose begins (DeformationUniforms)
 };
 
 struct ObjectUniforms {
@@ -273,7 +273,6 @@ enum DeformationBinding : uint8_t {
     kBindingBones = 0,           ///< sampler2D, RGBA32F: see kBonesPerRow
     kBindingDeformation = 1,     ///< DeformationUniforms, dynamic
     kBindingMorphDeltas = 2,     ///< sampler2D, RGBA32F: see kMorphTextureWidth
-    kBindingLastDeformation = 3, ///< DeformationUniforms of the previous frame, dynamic; with kVariantMotion only
 };
 
 /// The rows of the affine transform from where a vertex was bound to object space.
@@ -281,22 +280,23 @@ struct BoneData {
     float4 row0, row1, row2;
 };
 
-/// The bones of all skins of a frame: bone b is texels [3 * (b % kBonesPerRow), + 3) of row b / kBonesPerRow. Such a
-/// row fits into the smallest texture that OpenGL ES guarantees, 2048 texels.
+/// The poses of all visible objects of a frame, and of the one before where they moved: bone b is texels
+/// [3 * (b % kBonesPerRow), + 3) of row b / kBonesPerRow. Such a row fits into the smallest texture that OpenGL ES
+/// guarantees, 2048 texels. The pose of an object without morph targets is the bones of its skin. With morph targets it
+/// is a record that begins where a bone could. Its first texel: x: how many weights are not 0, y: the first bone of the
+/// skin. A texel for each of these follows, over the ends of rows: x: weight, y: target.
 inline constexpr uint32_t kBonesPerRow = 512;
 
 /// Texel ((target * vertices + vertex) * texels) of the deltas, row after row of kMorphTextureWidth: the position's
 /// difference, then the normal's, then the tangent's, as many as there are.
 inline constexpr uint32_t kMorphTextureWidth = 4096;
 
-/// As many as fit into the smallest uniform block that both APIs guarantee, 16 KiB.
-inline constexpr uint32_t kMaxActiveTargets = 1022;
-
+/// What objects have in common that share a draw.
 struct DeformationUniforms {
-    float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to
-                  ///< 2
-    glm::uvec4 bones; ///< x: skins that begin at a later bone are not there; y: bones of a skin - 1; zw: unused
-    std::array<float4, kMaxActiveTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
+    float4 shape; ///< x: unused; y: texels a vertex and morph target, 1 to 3, 0: no targets; z: vertices; w: joint
+                  ///< sets, 0 to 2
+    glm::uvec4 bones; ///< x: skins that begin at a later bone are not there; y: bones of a skin - 1; z: bones for which
+                      ///< there is room: records that begin behind them are not there; w: unused
 };
 
 // ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
@@ -420,7 +420,7 @@ inline constexpr std::array kQualityConstants{
 };
 
 // clang-format on
-static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 16384);
+static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 32);
 static_assert(sizeof(ProbeUniforms) == 1792);
 static_assert(sizeof(IrradianceField) == 512 && sizeof(ObjectUniforms) % sizeof(IrradianceField) == 0);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);

@@ -5,7 +5,6 @@
 const int kAttributeJoints1 = 13;
 const int kAttributeWeights1 = 14;
 const int kBonesPerRow = 512;
-const int kMaxActiveTargets = 1022;
 const int kMorphTextureWidth = 4096;
 
 layout(set = 3, binding = 0) uniform highp sampler2D boneRows;
@@ -13,15 +12,6 @@ layout(set = 3, binding = 0) uniform highp sampler2D boneRows;
 layout(set = 3, binding = 1, std140) uniform DeformationUniforms {
     vec4 shape;
     uvec4 bones;
-    vec4 targets[kMaxActiveTargets];
 } deformationUniforms;
 
 layout(set = 3, binding = 2) uniform highp sampler2D morphDeltas;
-
-#if defined(VARIANT_MOTION)
-layout(set = 3, binding = 3, std140) uniform LastDeformationUniforms {
-    vec4 shape;
-    uvec4 bones;
-    vec4 targets[kMaxActiveTargets];
-} lastDeformationUniforms;
-#endif

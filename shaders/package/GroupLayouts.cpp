@@ -94,7 +94,7 @@ uint32_t samplerCount(backend::BindGroupLayout const& group) {
     return static_cast<uint32_t>(std::ranges::count_if(bindings, isSampler));
 }
 
-backend::BindGroupLayout deformationGroupLayout(bool isOfMotion) {
+backend::BindGroupLayout deformationGroupLayout() {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::BindGroupLayout layout;
@@ -104,14 +104,12 @@ backend::BindGroupLayout deformationGroupLayout(bool isOfMotion) {
     add(kBindingBones, BindingType::SampledTexture);
     add(kBindingDeformation, BindingType::DynamicUniformBuffer);
     add(kBindingMorphDeltas, BindingType::SampledTexture);
-    if (isOfMotion) add(kBindingLastDeformation, BindingType::DynamicUniformBuffer);
     return layout;
 }
 
 backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey) {
     backend::ProgramLayout layout = package.layout;
-    if ((variantKey & kVariantSkinning) != 0)
-        layout[kGroupDeformation] = deformationGroupLayout((variantKey & kVariantMotion) != 0);
+    if ((variantKey & kVariantSkinning) != 0) layout[kGroupDeformation] = deformationGroupLayout();
     if ((variantKey & kVariantMerged) != 0) mergeInputs(package, layout[kGroupMaterial]);
     return layout;
 }

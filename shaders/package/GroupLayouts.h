@@ -26,8 +26,7 @@ backend::ProgramLayout fogLightLayout();
 uint32_t samplerCount(backend::BindGroupLayout const& group);
 
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
-/// `isOfMotion`: for kVariantMotion; others have no binding for the previous frame.
-backend::BindGroupLayout deformationGroupLayout(bool isOfMotion = false);
+backend::BindGroupLayout deformationGroupLayout();
 
 /// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms,
 /// and with subpass inputs instead of currentPixel textures if it is merged. These read colour attachments 0, 1, ... in

@@ -79,7 +79,7 @@ struct RenderableDesc {
     /// Without boxes every bone has the bounds above.
     std::vector<Box> boneBounds{};
     MorphTargets morphTargets{};       ///< with as many vertices as the vertex buffer
-    std::vector<float> morphWeights{}; ///< initial weights; missing ones are 0; the 1022 largest have an effect
+    std::vector<float> morphWeights{}; ///< initial weights; missing ones are 0
     bool culled = true;                ///< false: drawn even when its box is out of view
     bool castsShadows = true;          ///< if its material is opaque or masked
     bool receivesShadows = true;

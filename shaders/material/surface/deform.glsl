@@ -10,24 +10,20 @@ layout(location = kAttributeJoints1) in uvec4 mesh_joints1;
 layout(location = kAttributeWeights1) in vec4 mesh_weights1;
 #endif
 
-#if defined(VARIANT_MOTION)
-uvec4 skinBones() { return isLastFrame ? lastDeformationUniforms.bones : deformationUniforms.bones; }
-vec4 morphShape() { return isLastFrame ? lastDeformationUniforms.shape : deformationUniforms.shape; }
-vec4 morphTarget(int i) {
-    if (isLastFrame) return lastDeformationUniforms.targets[i];
-    return deformationUniforms.targets[i];
-}
-#else
+const int kRowTexels = 3 * kBonesPerRow;
+
 uvec4 skinBones() { return deformationUniforms.bones; }
 vec4 morphShape() { return deformationUniforms.shape; }
-vec4 morphTarget(int i) { return deformationUniforms.targets[i]; }
-#endif
 
 uint objectIndex(); // vertex_api.glsl
 
-// Where the bones of this instance begin, now or in the previous frame.
-float firstBone() { return objectUniforms.objects[objectIndex()].flags.w; }
+// Where the pose of this instance begins in boneRows, now or in the previous frame; see kBonesPerRow.
+float poseBegin() { return objectUniforms.objects[objectIndex()].flags.w; }
 
+ivec2 texelOfBone(uint bone) { return ivec2(bone % uint(kBonesPerRow) * 3u, bone / uint(kBonesPerRow)); }
+ivec2 nextTexel(ivec2 at) { return at.x + 1 < kRowTexels ? ivec2(at.x + 1, at.y) : ivec2(0, at.y + 1); }
+
+vec2 pose; // x: weights that are not 0; y: the first bone
 vec3 deformedPosition;
 vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bind pose to object space
 
@@ -39,26 +35,27 @@ vec3 morphDelta(int target, int part) {
 }
 
 vec3 morphed(vec3 value, int part) {
-    int count = int(morphShape().x);
+    int count = int(pose.x);
+    ivec2 at = texelOfBone(uint(poseBegin()));
     for (int i = 0; i < count; ++i) {
-        vec4 target = morphTarget(i);
+        at = nextTexel(at);
+        vec2 target = texelFetch(boneRows, at, 0).xy;
         value += target.x * morphDelta(int(target.y), part);
     }
     return value;
 }
 
 void addBones(uvec4 joints, vec4 weights) {
-    uint first = uint(firstBone());
+    uint first = uint(pose.y);
     for (int k = 0; k < 4; ++k) {
-        uint bone = first + min(joints[k], skinBones().y);
-        ivec2 at = ivec2(bone % uint(kBonesPerRow) * 3u, bone / uint(kBonesPerRow));
+        ivec2 at = texelOfBone(first + min(joints[k], skinBones().y));
         skinRow0 += weights[k] * texelFetch(boneRows, at, 0);
         skinRow1 += weights[k] * texelFetch(boneRows, at + ivec2(1, 0), 0);
         skinRow2 += weights[k] * texelFetch(boneRows, at + ivec2(2, 0), 0);
     }
 }
 
-bool hasSkin() { return morphShape().w > 0.0 && firstBone() <= float(skinBones().x); }
+bool hasSkin() { return morphShape().w > 0.0 && pose.y <= float(skinBones().x); }
 
 vec3 normalizeOr(vec3 v, vec3 fallback) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
@@ -67,7 +64,14 @@ vec3 normalizeOr(vec3 v, vec3 fallback) {
     return scaled * inversesqrt(dot(scaled, scaled));
 }
 
+vec2 readPose() {
+    float begin = poseBegin();
+    if (morphShape().y > 0.0 && begin < float(skinBones().z)) return texelFetch(boneRows, texelOfBone(uint(begin)), 0).xy;
+    return vec2(0.0, begin);
+}
+
 void deformPosition(vec3 position) {
+    pose = readPose();
     deformedPosition = morphed(position, 0);
     if (!hasSkin()) return;
     skinRow0 = skinRow1 = skinRow2 = vec4(0.0);

@@ -34,13 +34,22 @@ struct DeformationDataTest : testing::Test, BoxScene {
         return prepareFrame(jobs, arena, scene, view);
     }
 
-    shader::DeformationUniforms uniformsAt(DeformationList const& list, uint32_t boneRoom, uint32_t block) {
-        jobs::JobSystem jobs({ .workers = 1 });
-        std::vector<std::byte> memory(list.bytes);
-        writeDeformations(jobs, list, boneRoom, memory);
+    static shader::DeformationUniforms uniformsAt(DeformationList const& list, uint32_t boneRoom, uint32_t block) {
+        std::vector<std::byte> memory(list.bytes, std::byte{ 0xCD });
+        writeDeformations(list, boneRoom, memory);
         shader::DeformationUniforms uniforms{};
-        std::memcpy(&uniforms, memory.data() + block, std::min(sizeof uniforms, memory.size() - block));
+        std::memcpy(&uniforms, memory.data() + block, sizeof uniforms);
         return uniforms;
+    }
+
+    /// What lies in the texture; the memory held something else before.
+    static std::vector<float4> texelsOf(DeformationList const& list, size_t bones) {
+        jobs::JobSystem jobs({ .workers = 1 });
+        std::vector<shader::BoneData> written(bones, { float4(-1), float4(-1), float4(-1) });
+        writeBones(jobs, list, written);
+        std::vector<float4> texels;
+        for (shader::BoneData const& bone : written) texels.insert(texels.end(), { bone.row0, bone.row1, bone.row2 });
+        return texels;
     }
 
     /// A box attached to one joint.
@@ -91,28 +100,29 @@ TEST_F(DeformationDataTest, BlocksAreAlignedAndDoNotOverlapAndPrimitivesShareThe
     ASSERT_EQ(packet.deformations.places.size(), 3u);
     DeformationPlace const &a = packet.deformations.places[0], &b = packet.deformations.places[1],
                            &c = packet.deformations.places[2];
-    EXPECT_EQ(a.bones, b.bones);
-    EXPECT_NE(a.weights, b.weights);
+    EXPECT_EQ(a.now.begin, b.now.begin);
+    EXPECT_EQ(a.now.bones, b.now.bones);
+    EXPECT_NE(a.block, b.block);
     EXPECT_EQ(c.deltas, morph.deltas);
-    for (const uint32_t offset : { a.weights, b.weights, c.weights }) EXPECT_EQ(offset % 256, 0u);
+    for (const uint32_t offset : { a.block, b.block, c.block }) EXPECT_EQ(offset % 256, 0u);
     EXPECT_EQ(packet.deformations.bytes, 3 * 256u);
-    EXPECT_EQ(packet.deformations.boneCount, 7u);
+    EXPECT_EQ(packet.deformations.boneCount, 8u) << "the skin's, and one for the record of two weights";
 
-    jobs::JobSystem jobs({ .workers = 1 });
-    std::vector<shader::BoneData> bones(7);
-    writeBones(jobs, packet.deformations, bones);
-    EXPECT_EQ(bones[a.bones + 6].row2, float4(0, 0, 1, -5));
-    const shader::DeformationUniforms morphed = uniformsAt(packet.deformations, 7, c.weights);
-    EXPECT_EQ(morphed.shape, float4(2, 2, 8, 0)) << "two active targets, two texels, eight vertices, no skin";
-    EXPECT_EQ(morphed.targets[0], float4(0.5f, 1, 0, 0));
-    EXPECT_EQ(morphed.targets[1], float4(-2, 3, 0, 0));
-    const shader::DeformationUniforms skinned = uniformsAt(packet.deformations, 7, a.weights);
+    const std::vector<float4> texels = texelsOf(packet.deformations, 8);
+    EXPECT_EQ(texels[3 * (a.now.bones + 6) + 2], float4(0, 0, 1, -5));
+    const size_t record = 3 * size_t{ c.now.begin };
+    EXPECT_EQ(texels[record], float4(2, 0, 0, 0)) << "two active targets";
+    EXPECT_EQ(texels[record + 1], float4(0.5f, 1, 0, 0));
+    EXPECT_EQ(texels[record + 2], float4(-2, 3, 0, 0));
+    EXPECT_EQ(uniformsAt(packet.deformations, 8, c.block).shape, float4(0, 2, 8, 0)) << "two texels, eight vertices";
+    EXPECT_EQ(uniformsAt(packet.deformations, 8, c.block).bones.z, 8u);
+    const shader::DeformationUniforms skinned = uniformsAt(packet.deformations, 8, a.block);
     EXPECT_EQ(skinned.shape, float4(0, 0, 0, 2));
-    EXPECT_EQ(skinned.bones, glm::uvec4(0, 6, 0, 0)) << "a device with room for 7 has room for skins that begin at 0";
+    EXPECT_EQ(skinned.bones, glm::uvec4(1, 6, 8, 0)) << "of 8 bones, a skin of 7 may begin with the second";
 }
 
-/// The slot of each visible object with its first bone, in the order of drawing.
-std::vector<std::pair<uint32_t, float>> firstBones(ViewPacket const& view) {
+/// The slot of each visible object with where its pose begins, in the order of drawing.
+std::vector<std::pair<uint32_t, float>> posesOf(ViewPacket const& view) {
     std::vector<shader::ObjectData> objects(view.objects.size());
     jobs::JobSystem jobs({ .workers = 1 });
     writeObjects(jobs, view.objects, objects);
@@ -136,8 +146,8 @@ TEST_F(DeformationDataTest, CopiesOfASkinnedMeshShareADrawAndABlockAndHaveBonesO
     EXPECT_EQ(alike.mainView().opaque[0].instanceCount, 3u);
     EXPECT_EQ(alike.deformations.bytes, 256u);
     EXPECT_EQ(alike.deformations.boneCount, 18u);
-    for (auto const& [slot, first] : firstBones(alike.mainView()))
-        EXPECT_EQ(first, static_cast<float>(alike.deformations.places[slot].bones)) << slot;
+    for (auto const& [slot, begin] : posesOf(alike.mainView()))
+        EXPECT_EQ(begin, static_cast<float>(alike.deformations.places[slot].now.bones)) << slot;
 
     const Renderable other = addCopy(-5, 7, 1);
     addCopy(-5, 6, 2);
@@ -146,9 +156,42 @@ TEST_F(DeformationDataTest, CopiesOfASkinnedMeshShareADrawAndABlockAndHaveBonesO
     scene::removeRenderable(scene, other);
     const FramePacket fewer = prepare();
     EXPECT_EQ(fewer.mainView().opaque.size(), 3u) << "the last renderable took the place of the removed one";
-    for (auto const& [slot, first] : firstBones(fewer.mainView()))
-        EXPECT_EQ(first,
-                  slot == scene::kNotDeformed ? 0.0f : static_cast<float>(fewer.deformations.places[slot].bones));
+    for (auto const& [slot, begin] : posesOf(fewer.mainView()))
+        EXPECT_EQ(begin,
+                  slot == scene::kNotDeformed ? 0.0f : static_cast<float>(fewer.deformations.places[slot].now.begin));
+}
+
+TEST_F(DeformationDataTest, CopiesOfAMorphedMeshShareADrawAndABlockAndHaveWeightsOfTheirOwn) {
+    const Skin shared = scene::addSkin(scene, { .bones = std::vector<shader::BoneData>(5) });
+    scene::setBones(scene, shared, std::vector<float4x4>(5, float4x4(moved(0, 0, -5))));
+    const auto addCopy = [&](std::vector<float> weights, Skin skin) {
+        addDeformed(box(moved(0, 0, skin ? 0 : -5), solid, 1), { .skin = skin,
+                                                                 .jointSets = static_cast<uint8_t>(skin ? 1 : 0),
+                                                                 .morph = &morph,
+                                                                 .weights = std::move(weights) });
+    };
+    const std::vector<std::vector<float>> weights{ { 1, 0, 0, 0 }, { 0, 2, 3, 4 }, { 0, 0, 0, 0 } };
+    for (auto const& each : weights) addCopy(each, {});
+    for (auto const& each : weights) addCopy(each, shared);
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.mainView().opaque.size(), 2u) << "with and without the skin";
+    EXPECT_EQ(packet.deformations.bytes, 2 * 256u);
+    EXPECT_EQ(packet.deformations.boneCount, 2 * 4 + 5u);
+    const std::vector<float4> texels = texelsOf(packet.deformations, packet.deformations.boneCount);
+    for (auto const& [slot, begin] : posesOf(packet.mainView())) {
+        auto at = 3 * static_cast<size_t>(begin);
+        const float first = slot < 3 ? 0 : static_cast<float>(packet.deformations.places[3].now.bones);
+        EXPECT_EQ(texels[at], float4(slot % 3 == 0 ? 1 : slot % 3 == 1 ? 3 : 0, first, 0, 0));
+        for (size_t target = 0; target < 4; ++target) {
+            const float weight = weights[slot % 3][target];
+            if (weight == 0) continue;
+            EXPECT_EQ(texels[++at], float4(weight, target, 0, 0)) << slot << ' ' << target;
+        }
+    }
+    scene::MorphTargets other = morph;
+    other.deltas = backend::TextureHandle::make(10, 1);
+    addDeformed(box(moved(0, 0, -5), solid, 1), { .morph = &other, .weights = { 1, 0, 0, 0 } });
+    EXPECT_EQ(prepare().mainView().opaque.size(), 3u) << "other targets of the same mesh";
 }
 
 // One copy in view does not upload the others.
@@ -180,49 +223,48 @@ TEST_F(DeformationDataTest, SkinsThatTheDeviceHasNoRoomForAreDrawnAtRest) {
     jobs::JobSystem jobs({ .workers = 1 });
     writeBones(jobs, packet.deformations, bones);
     const auto shapeOf = [&](size_t i) {
-        return uniformsAt(packet.deformations, 10, packet.deformations.places[i].weights);
+        return uniformsAt(packet.deformations, 10, packet.deformations.places[i].block);
     };
     // A skin is drawn if it begins where its kind still ends inside of the room.
-    const auto begins = [&](size_t i) { return packet.deformations.places[i].bones; };
-    EXPECT_EQ(shapeOf(0).bones, glm::uvec4(5, 4, 0, 0));
-    EXPECT_EQ(shapeOf(1).bones, glm::uvec4(6, 3, 0, 0));
-    EXPECT_EQ(shapeOf(2).bones, glm::uvec4(7, 2, 0, 0));
+    const auto begins = [&](size_t i) { return packet.deformations.places[i].now.begin; };
+    EXPECT_EQ(shapeOf(0).bones, glm::uvec4(5, 4, 10, 0));
+    EXPECT_EQ(shapeOf(1).bones, glm::uvec4(6, 3, 10, 0));
+    EXPECT_EQ(shapeOf(2).bones, glm::uvec4(7, 2, 10, 0));
     EXPECT_EQ(begins(0), 0u);
     EXPECT_EQ(begins(1), 5u);
     EXPECT_EQ(begins(2), 9u) << "behind 7: at rest";
-    const uint32_t third = packet.deformations.places[2].weights;
+    const uint32_t third = packet.deformations.places[2].block;
     EXPECT_EQ(uniformsAt(packet.deformations, 2, third).shape.w, 0.0f) << "no skin of this kind fits";
 }
 
-// Ties are resolved in the order of the targets.
-TEST_F(DeformationDataTest, OfTooManyActiveTargetsThoseOfTheLargestWeightsStay) {
-    constexpr size_t kCount = 3000, kMost = shader::kMaxActiveTargets;
+TEST_F(DeformationDataTest, RecordsOfWeightsThatTheDeviceHasNoRoomForAreEmpty) {
+    for (int i = 0; i < 3; ++i)
+        addDeformed(box(moved(0, 0, -6), solid, 1), { .morph = &morph, .weights = { 1, 2, 3, 4 } });
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.deformations.boneCount, 6u);
+    const std::vector<float4> texels = texelsOf(packet.deformations, 3);
+    EXPECT_EQ(texels[0], float4(4, 0, 0, 0));
+    EXPECT_EQ(texels[4], float4(4, 3, 0, 0));
+    EXPECT_EQ(texels[6], float4(0)) << "it begins there, and ends behind the room";
+    EXPECT_EQ(packet.deformations.places[2].now.begin, 4u);
+    EXPECT_EQ(uniformsAt(packet.deformations, 3, packet.deformations.places[2].block).bones.z, 3u) << "not there";
+}
+
+TEST_F(DeformationDataTest, AnyNumberOfWeightsHasAnEffect) {
     scene::MorphTargets many = morph;
-    many.targetCount = kCount;
-    many.reach.assign(kCount, { float3(0), float3(0) });
-    for (const bool isTied : { false, true }) {
-        std::vector<float> weights(kCount);
-        std::vector<std::pair<float, uint32_t>> order;
-        for (uint32_t i = 0; i < kCount; ++i) {
-            const float size =
-                    isTied ? 0.25f * static_cast<float>(1 + i % 3) : 1e-3f * static_cast<float>(i * 7 % 3001);
-            weights[i] = i % 5 == 0 ? 0.0f : i % 2 ? size : -size;
-            order.emplace_back(-std::abs(weights[i]), i);
-        }
-        std::ranges::sort(order);
-        order.resize(kMost);
-        std::ranges::sort(order, {}, &std::pair<float, uint32_t>::second);
-        const Renderable box =
-                addDeformed(this->box(moved(0, 0, -6), solid, 3), { .morph = &many, .weights = weights });
-        const FramePacket packet = prepare();
-        const shader::DeformationUniforms block =
-                uniformsAt(packet.deformations, 0, packet.deformations.places[0].weights);
-        ASSERT_EQ(block.shape.x, float{ kMost });
-        for (size_t i = 0; i < kMost; ++i) {
-            const uint32_t target = order[i].second;
-            ASSERT_EQ(block.targets[i], float4(weights[target], target, 0, 0)) << i << (isTied ? " tied" : "");
-        }
-        scene::removeRenderable(scene, box);
+    many.targetCount = 3000;
+    many.reach.assign(3000, { float3(0), float3(0) });
+    std::vector<float> weights(3000);
+    for (uint32_t i = 0; i < 3000; ++i) weights[i] = i % 5 == 0 ? 0.0f : 1e-3f * static_cast<float>(i);
+    addDeformed(box(moved(0, 0, -6), solid, 3), { .morph = &many, .weights = weights });
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.deformations.boneCount, 801u);
+    const std::vector<float4> texels = texelsOf(packet.deformations, 801);
+    ASSERT_EQ(texels[0], float4(2400, 0, 0, 0));
+    size_t at = 0;
+    for (uint32_t i = 0; i < 3000; ++i) {
+        if (weights[i] == 0) continue;
+        ASSERT_EQ(texels[++at], float4(weights[i], i, 0, 0));
     }
 }
 

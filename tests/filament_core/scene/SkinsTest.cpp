@@ -259,5 +259,30 @@ TEST_F(SkinsTest, RenderablesOfOneMeshAreOneDrawIfTheirSkinsHaveAsManyBones) {
     EXPECT_NE(deformationAt(scene.renderables, a), deformationAt(scene.renderables, b)) << "each has bones of its own";
 }
 
+TEST_F(SkinsTest, RenderablesOfOneMeshAreOneDrawIfTheyHaveTheSameMorphTargets) {
+    const auto targetsOf = [](uint32_t texture) {
+        return MorphTargets{ .deltas = backend::TextureHandle::make(texture, 1),
+                             .vertexCount = 1,
+                             .targetCount = 1,
+                             .reach = { { float3(0), float3(1) } } };
+    };
+    const MorphTargets one = targetsOf(1), other = targetsOf(2);
+    const auto drawableOf = [&](MorphTargets const* morph, Skin skin) {
+        return scene.renderables.drawable[scene.renderables.index.at(
+                addDeformed(scene, { .geometry = { .indexCount = 3 }, .material = &instance },
+                            { .skin = skin,
+                              .jointSets = static_cast<uint8_t>(skin ? 1 : 0),
+                              .morph = morph,
+                              .weights = { 0.5f },
+                              .restBounds = { float3(-1), float3(1) } }))];
+    };
+    const Skin skin = addSkin(scene, { .bones = std::vector<shader::BoneData>(3) });
+    const uint32_t first = drawableOf(&one, {});
+    EXPECT_EQ(drawableOf(&one, {}), first);
+    EXPECT_NE(drawableOf(&other, {}), first);
+    EXPECT_NE(drawableOf(&one, skin), first);
+    EXPECT_EQ(drawableOf(&one, skin), drawableOf(&one, skin));
+}
+
 } // namespace
 } // namespace filament_core::scene

@@ -205,7 +205,7 @@ protected:
             layout(location = 0) in vec4 position;
             void main() {
                 gl_Position = texelFetch(boneRows, ivec2(0), 0) + vec4(deformationUniforms.bones)
-                        + deformationUniforms.shape + deformationUniforms.targets[1]
+                        + deformationUniforms.shape
                         + texelFetch(morphDeltas, ivec2(0), 0);
             })",
                                                                   backend::ShaderStage::Vertex, "deformation");
@@ -216,8 +216,7 @@ protected:
 
 TEST_F(DeformationInterface, BlocksAgree) {
     const auto& all = mCompiler.get_type(block(kGroupDeformation, kBindingDeformation).base_type_id);
-    expectMembers(all, { MEMBER(DeformationUniforms, shape), MEMBER(DeformationUniforms, bones),
-                         MEMBER(DeformationUniforms, targets) });
+    expectMembers(all, { MEMBER(DeformationUniforms, shape), MEMBER(DeformationUniforms, bones) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(all), sizeof(DeformationUniforms));
 }
 
@@ -244,7 +243,6 @@ TEST_F(DeformationInterface, ConstantsAgree) {
     expect("kAttributeJoints1", kAttributeJoints1);
     expect("kAttributeWeights1", kAttributeWeights1);
     expect("kBonesPerRow", kBonesPerRow);
-    expect("kMaxActiveTargets", kMaxActiveTargets);
     expect("kMorphTextureWidth", kMorphTextureWidth);
 }
 
