@@ -32,8 +32,8 @@ void shiftEnvironment(Json& light, GltfOffsets const& by);
 void shiftNode(Json& node, GltfOffsets const& by, GltfCopyOffsets const& copy);
 void shiftSkin(Json& skin, GltfOffsets const& by, GltfCopyOffsets const& copy);
 void shiftSampler(Json& sampler, GltfOffsets const& by); ///< of an animation
-/// Whether the target of a channel is an element of its file. Loaders leave other channels out; moved, they would name an
-/// element of another file.
+/// Whether the target of a channel is an element of its file. Loaders leave other channels out; moved, they would name
+/// an element of another file.
 bool isChannelInside(Json const& channel, Json const& file);
 /// Of a channel of an animation. `isFirst`: of the first copy; channels that move what copies share belong to it.
 /// False: the copy has no such channel.

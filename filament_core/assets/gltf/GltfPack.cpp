@@ -130,7 +130,8 @@ VertexFormat frameFormat(GltfGeometry const& geometry, TangentStorage storage) {
     return geometry.frames.empty() ? formatOf(storage) : geometry.frameFormat;
 }
 
-/// Those of the file, or of its normals and tangents: w keeps its sign when it is rounded, because it is at least one integer step.
+/// Those of the file, or of its normals and tangents: w keeps its sign when it is rounded, because it is at least one
+/// integer step.
 std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storage) {
     if (!geometry.frames.empty()) return geometry.frames;
     const float leastW = storage == TangentStorage::Snorm8 ? 1.0f / 127 : 1.0f / 32767;

@@ -48,7 +48,8 @@ TEST(SectionModel, APlaneOfThePanelCutsThePicture) {
     panels.frame();
     panels.stage->finishLoading();
     panels.frame();
-    EXPECT_EQ(axisPlaneOf(panels.stage->view().section.planes[0]), plane) << "a slider that nobody drags changes nothing";
+    EXPECT_EQ(axisPlaneOf(panels.stage->view().section.planes[0]), plane)
+            << "a slider that nobody drags changes nothing";
     const auto hit = [&](double y) {
         View view = panels.stage->view();
         view.camera = Camera::lookAt({ 0, y, 3 }, { 0, y, 0 });
