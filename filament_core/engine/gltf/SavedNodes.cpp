@@ -433,8 +433,8 @@ private:
         return mOwn.contains(slot) ? addRenderables(slot, written) : Result<void>();
     }
 
-    /// As a mesh of the node, or of one below it if that is one of a file, or if they are hidden. What is deformed has a
-    /// node of its own: all primitives of a mesh have as many morph targets.
+    /// As a mesh of the node, or of one below it if that is one of a file, or if they are hidden. What is deformed has
+    /// a node of its own: all primitives of a mesh have as many morph targets.
     Result<void> addRenderables(uint32_t slot, uint32_t written) {
         for (const bool areHidden : { false, true }) {
             std::vector<Renderable> plain;

@@ -7,9 +7,9 @@
 ///           GltfLoadOptions. What the program changed since is written over it: nodes, visibility, variants,
 ///           parameters of materials, lights, weights of morph targets; nodes and renderables that were removed are not
 ///           shown.
-///   Meshes  that the program made are read back from the device, with their skins and morph targets and with the frames
-///           of their vertices, and with their materials: the built-in ones, and of others the parameters that have the
-///           same names.
+///   Meshes  that the program made are read back from the device, with their skins and morph targets and with the
+///           frames of their vertices, and with their materials: the built-in ones, and of others the parameters that
+///           have the same names.
 ///   Lights  are those of KHR_lights_punctual; the rest of their values, and areas, are in FILAMENT_light
 ///           (docs/gltf.md), which loadGltf() reads. Other programs show an area as a point or spot of its candelas.
 ///   Nodes   have the places of the scene in double precision: the digits of JSON keep millimetres 10^7 metres away for
