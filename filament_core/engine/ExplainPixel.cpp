@@ -84,7 +84,8 @@ Result<void> addMaterial(Engine& engine, Scene const& scene, engine::ShareStep c
     Result<std::vector<PixelTexture>> textures = engine::pixelTextures(engine, handle, whole, draw);
     if (!textures) return textures.error();
     explanation.textures = std::move(*textures);
-    return {};
+    return engine::readTexels(engine, scene, last.view, explanation.pixel, handle, *explanation.surface,
+                              explanation.textures);
 }
 
 Result<PixelExplanation> explained(Engine& engine, Scene const& scene, View const& view, uint2 pixel,

@@ -2,10 +2,15 @@
 #include "filament_core/engine/MaterialShares.h"
 
 #include "base/math/Half.h"
+#include "filament_core/engine/RequiredAttributes.h"
+#include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShareSteps.h"
 #include "filament_core/engine/materials/TextureParameters.h"
 
+#include <filament_core/RenderAovs.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -218,7 +223,135 @@ private:
     std::array<Owned<Texture>, kNeutrals> mNeutral{};
 };
 
+// ---- texels
+
+/// Where a material reads a texture.
+struct TexelPlace {
+    int32_t set = 0; ///< of texture coordinates
+    bool isTransformed = false;
+    float3x3 transform{ 1 }; ///< uv' = (M * (u, v, 1)).xy
+};
+
+template <class T>
+std::optional<T> constantOf(scene::Material const& material, std::string const& name) {
+    for (ConstantDescription const& constant : material.description.constants)
+        if (T const* value = std::get_if<T>(&constant.value); value && constant.name == name) return *value;
+    return std::nullopt;
+}
+
+/// glTF materials say it in constants, "baseColorUv" and "baseColorTransform", and a matrix "baseColorUvMatrix" whose
+/// columns are 16 bytes apart. The built-in ones read the first set with v upwards.
+std::optional<TexelPlace> placeOf(scene::MaterialInstance const& instance, std::string const& parameter) {
+    scene::Material const& material = *instance.material;
+    if (material.package.name == "litTextured" || material.package.name == "unlitTextured")
+        return TexelPlace{ .isTransformed = true, .transform = { 1, 0, 0, 0, -1, 0, 0, 1, 1 } };
+    if (!material.package.name.starts_with("gltf_") || !parameter.ends_with("Map")) return std::nullopt;
+    const std::string stem = parameter.substr(0, parameter.size() - 3);
+    const std::optional<int32_t> set = constantOf<int32_t>(material, stem + "Uv");
+    const std::optional<bool> transform = constantOf<bool>(material, stem + "Transform");
+    shader::Parameter const* const matrix = material.package.findParameter(stem + "UvMatrix");
+    if (!set || *set > 1 || !transform || !matrix || matrix->offset + 48 > instance.parameters.size())
+        return std::nullopt;
+    TexelPlace place{ .set = *set, .isTransformed = *transform };
+    for (int column = 0; column < 3; ++column)
+        std::memcpy(&place.transform[column], instance.parameters.data() + matrix->offset + 16 * column,
+                    sizeof(float3));
+    return place;
+}
+
+/// Draws a renderable with another instance, and gives back its own.
+class ReplacedMaterial {
+public:
+    ReplacedMaterial(Scene const& scene, Renderable renderable, scene::MaterialInstance const& own,
+                     scene::MaterialInstance const& other)
+            : mScene(const_cast<Scene::Impl&>(scene.impl())), mRenderable(renderable), mOwn(own) {
+        set(other);
+    }
+    ~ReplacedMaterial() { set(mOwn); }
+    ReplacedMaterial(ReplacedMaterial const&) = delete;
+    ReplacedMaterial& operator=(ReplacedMaterial const&) = delete;
+
+private:
+    void set(scene::MaterialInstance const& instance) {
+        scene::setMaterial(mScene.changedUses().renderables, mRenderable, instance);
+    }
+
+    Scene::Impl& mScene;
+    Renderable mRenderable;
+    scene::MaterialInstance const& mOwn;
+};
+
+/// Of the instance that shows a texture as its base colour: whatever its alpha is, it is opaque.
+Result<Owned<MaterialInstance>> makeProbe(Engine& engine, Material material, scene::MaterialInstance const& own,
+                                          std::string const& parameter, TexelPlace const& place) {
+    Engine::Impl& impl = engine.impl();
+    Owned<MaterialInstance> probe = engine.own(engine.createInstance(material));
+    if (!probe.get()) return fail(ErrorCode::OutOfMemory, "explain pixel: no material instance");
+    for (Result<void> const& done :
+         { engine.set(probe, "baseColorFactor", float4(1)), engine.set(probe, "baseColorUvMatrix", place.transform) })
+        if (!done) return done.error();
+    scene::MaterialInstance& state = impl.instances.get(probe);
+    state.raster = own.raster;
+    state.raster.colorWrite = state.raster.depthWrite = state.raster.depthCulling = true;
+    state.raster.stencil.reset();
+    shader::Parameter const* const from = own.material->package.findParameter(parameter);
+    shader::Parameter const* const to = state.material->package.findParameter("baseColorMap");
+    state.textures[textureSlot(state.material->package, *to)] = own.textures[textureSlot(own.material->package, *from)];
+    state.texturesDirty = true; // and the new instance is listed
+    return probe;
+}
+
+std::optional<float3> numberAt(Image const& image, uint2 pixel) {
+    float4 number(0);
+    std::memcpy(&number, image.pixels.data() + (size_t{ pixel.y } * image.width + pixel.x) * sizeof(number),
+                sizeof(number));
+    return number.w == 1 ? std::optional(float3(number)) : std::nullopt;
+}
+
+/// Of one texture; nothing where the probe does not show the surface: something cuts it that the probe does not know.
+Result<void> readTexel(Engine& engine, Scene const& scene, View const& view, uint2 pixel,
+                       scene::MaterialInstance const& own, PixelSurface const& surface, PixelTexture& texture) {
+    const std::optional<TexelPlace> place = placeOf(own, texture.parameter);
+    if (!place) return {};
+    const Result<Material> made =
+            engine.create(MaterialDesc{ .package = engine.impl().enginePackage("gltf_unlit_opaque"),
+                                        .constants = { { "hasBaseColorMap", true },
+                                                       { "baseColorUv", place->set },
+                                                       { "baseColorTransform", place->isTransformed } },
+                                        .name = "texels" });
+    if (!made) return made.error();
+    const Owned<Material> material = engine.own(*made);
+    scene::Renderables const& renderables = scene.impl().upToDate().renderables;
+    const uint32_t layout =
+            renderables.drawables[renderables.drawable[renderables.index.at(surface.renderable)]].geometry.layout;
+    if (!missingAttributes(engine.impl().materials.get(material), engine.impl().layouts[layout].vertices).empty())
+        return {};
+    const Result<Owned<MaterialInstance>> probe = makeProbe(engine, material, own, texture.parameter, *place);
+    if (!probe) return probe.error();
+    const ReplacedMaterial replaced(scene, surface.renderable, own, engine.impl().instances.get(*probe));
+    const Result<std::vector<Image>> numbers =
+            renderAovs(engine, scene, view, std::array{ Aov::Depth, Aov::BaseColor, Aov::TextureCoordinates });
+    if (!numbers) return numbers.error();
+    const std::optional<float3> depth = numberAt((*numbers)[0], pixel);
+    if (!depth || std::abs(double{ depth->x } - surface.distanceMeters) > 1e-3 * surface.distanceMeters) return {};
+    texture.texel = numberAt((*numbers)[1], pixel);
+    const std::optional<float3> uv = numberAt((*numbers)[2], pixel);
+    if (uv && place->set == 0) // the number is of the first set
+        texture.uv = place->isTransformed ? float2(place->transform * float3(uv->x, uv->y, 1)) : float2(*uv);
+    return {};
+}
+
 } // namespace
+
+Result<void> readTexels(Engine& engine, Scene const& scene, View const& view, uint2 pixel, MaterialInstance handle,
+                        PixelSurface const& surface, std::vector<PixelTexture>& textures) {
+    scene::MaterialInstance const& own = engine.impl().instances.get(handle);
+    for (PixelTexture& texture : textures) {
+        if (texture.parameter.empty()) continue;
+        if (Result<void> read = readTexel(engine, scene, view, pixel, own, surface, texture); !read) return read;
+    }
+    return {};
+}
 
 Result<std::vector<PixelLobe>> pixelLobes(Engine& engine, MaterialInstance handle, PixelSurface const& surface,
                                           std::array<uint16_t, 4> const& whole, DrawPixel const& draw) {

@@ -27,4 +27,9 @@ Result<std::vector<PixelLobe>> pixelLobes(Engine& engine, MaterialInstance handl
 Result<std::vector<PixelTexture>> pixelTextures(Engine& engine, MaterialInstance handle,
                                                 std::array<uint16_t, 4> const& whole, DrawPixel const& draw);
 
+/// Fills `uv` and `texel` where they are known, by drawing the surface's renderable with a material that shows the
+/// texture: nothing of it is in other materials.
+Result<void> readTexels(Engine& engine, Scene const& scene, View const& view, uint2 pixel, MaterialInstance handle,
+                        PixelSurface const& surface, std::vector<PixelTexture>& textures);
+
 } // namespace filament_core::engine

@@ -40,6 +40,12 @@ std::string textOf(PixelExplanation const& explanation) {
     for (PixelLobe const& lobe : explanation.lobes) text += rowOf("lobe: " + lobe.name, lobe.value);
     for (PixelTexture const& texture : explanation.textures)
         text += rowOf("texture: " + (texture.parameter.empty() ? "none" : texture.parameter), texture.value);
+    for (PixelTexture const& texture : explanation.textures) {
+        if (!texture.texel) continue;
+        const std::string at = texture.uv ? fmt::format(" at uv ({:.6g}, {:.6g})", texture.uv->x, texture.uv->y) : "";
+        text += fmt::format("  {} '{}' {}x{}{}{}\n", texture.parameter, texture.texture, texture.size.x, texture.size.y,
+                            at, vectorText("linear texel", texture.texel));
+    }
     return text + (explanation.surface ? surfaceText(*explanation.surface) : "  no surface\n");
 }
 

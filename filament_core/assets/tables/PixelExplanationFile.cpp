@@ -55,10 +55,13 @@ Json surfaceJson(PixelSurface const& surface) {
 
 Json textureJson(PixelTexture const& texture) {
     if (texture.parameter.empty()) return { { "name", "none" }, { "value", vectorJson(texture.value) } };
-    return { { "name", texture.parameter },
-             { "texture", texture.texture },
-             { "size", { texture.size.x, texture.size.y } },
-             { "value", vectorJson(texture.value) } };
+    Json object{ { "name", texture.parameter },
+                 { "texture", texture.texture },
+                 { "size", { texture.size.x, texture.size.y } },
+                 { "value", vectorJson(texture.value) } };
+    addIfThere(object, "uv", texture.uv);
+    addIfThere(object, "texel", texture.texel);
+    return object;
 }
 
 std::string jsonOf(PixelExplanation const& explanation) {

@@ -5,8 +5,8 @@
 ///   Sum     terms in doubles add up to the half floats of the pixel exactly, before tone mapping (Shares.h).
 ///   Thread  the app thread, which waits for the pixels. Not while a frame is drawn.
 ///   Memory  a few hundred bytes; what renderers take is given back.
-///   Cost    a frame for each term, lobe and texture, one for each number of the surface and each id, and a pick. Other
-///           frames: none.
+///   Cost    a frame for each term and lobe, four for each texture, one for each number of the surface and each id, and
+///           a pick. Other frames: none.
 #pragma once
 
 #include <filament_core/Aov.h>
@@ -41,6 +41,11 @@ struct PixelTexture {
     std::string texture{};   ///< its name, may be empty
     uint2 size{ 0 };         ///< texels of its finest level on the device
     double4 value{ 0 };      ///< as of PixelTerm
+    /// Where the shader reads it at the pixel's centre, and what it reads there: filtered, linear, red, green and blue.
+    /// Of glTF materials and the textured built-in ones; missing where the mesh has no such coordinates, and `uv` of
+    /// the second set.
+    std::optional<float2> uv{};
+    std::optional<float3> texel{};
 };
 
 /// Of the nearest surface at the pixel's centre. Numbers that its material does not have are missing.

@@ -4,11 +4,16 @@
 
 #include "base/math/Half.h"
 
+#include <filament_core/BuiltInMaterials.h>
 #include <filament_core/ExplainPixel.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Image.h>
 
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 namespace filament_core {
@@ -117,6 +122,95 @@ TEST(ExplainTextures, OfNormalsTakeTheLightThatTheyTurnFrom) {
         }
     }
     EXPECT_EQ(std::vector(texts.begin(), texts.begin() + 2), std::vector(texts.begin() + 2, texts.end()));
+}
+
+/// Of the pixel in the middle: half a pixel right of the middle and below it.
+const double kMiddle = std::tan(40 * std::numbers::pi / 180) / 16;
+const float2 kMiddleUv{ static_cast<float>((1 + kMiddle) / 2), static_cast<float>((1 + kMiddle) / 2) }; // v downwards
+
+TEST(ExplainTextures, OfBuiltInMaterialsHaveTheTexelsThatTheirShadersRead) {
+    std::vector<std::string> texts;
+    for (const Backend backend : test::kBothApis) {
+        test::SquareStage stage(backend, kProduct);
+        const Owned<Material> material = stage.engine.own(*createBuiltInMaterial(stage.engine, "unlitTextured"));
+        const Owned<MaterialInstance> instance = stage.engine.own(stage.engine.createInstance(material));
+        std::array<std::array<uint8_t, 4>, 16> codes{};
+        for (uint8_t i = 0; i < 16; ++i) codes[i] = { i, static_cast<uint8_t>(100 + i), 255, 0 };
+        const Owned<Texture> texture = stage.engine.own(stage.engine.create(
+                TextureDesc{ .width = 4, .height = 4, .pixels = std::as_bytes(std::span(codes)), .name = "codes" }));
+        ASSERT_TRUE(stage.engine.set(instance, "baseColorMap", texture.get(), kUnfilteredSampler));
+        Scene scene(stage.engine);
+        stage.square.add(scene, instance);
+        const Image before = test::renderLinear(stage.engine, scene, test::SquareMesh::view());
+        const PixelExplanation explained = explainedMiddle(stage.engine, scene);
+        ASSERT_EQ(explained.textures.size(), 2u);
+        EXPECT_FALSE(explained.textures[0].uv || explained.textures[0].texel);
+        ASSERT_TRUE(explained.textures[1].uv && explained.textures[1].texel);
+        EXPECT_NEAR(explained.textures[1].uv->x, kMiddleUv.x, 1e-5);
+        EXPECT_NEAR(explained.textures[1].uv->y, 1 - kMiddleUv.y, 1e-5); // v upwards
+        const float3 texel = *explained.textures[1].texel;               // third of the second row
+        EXPECT_NEAR(texel.x * 255, 6, 1e-5);
+        EXPECT_NEAR(texel.y * 255, 106, 1e-5);
+        EXPECT_EQ(texel.z, 1);
+        EXPECT_EQ(test::renderLinear(stage.engine, scene, test::SquareMesh::view()).pixels, before.pixels);
+        texts.push_back(toJson(explained));
+    }
+    EXPECT_EQ(texts[0], texts[1]);
+}
+
+/// A square with a texture of a red, a green, a blue and a white texel, of which a transform shows the middle half.
+std::filesystem::path transformedSquare() {
+    const std::filesystem::path folder = test::folderOfThisTest();
+    constexpr std::array<float, 30> kNumbers{ -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0, // positions
+                                              0,  1,  1, 1, 1,  0, 0, 1, 1, 0,  0,  0 };                  // uv
+    std::ofstream(folder / "square.bin", std::ios::binary)
+            .write(reinterpret_cast<const char*>(kNumbers.data()), sizeof kNumbers);
+    constexpr std::array<uint8_t, 16> kTexels{ 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255 };
+    const auto bytes = std::as_bytes(std::span(kTexels));
+    EXPECT_TRUE(savePng(folder / "texels.png",
+                        Image{ .width = 4, .height = 1, .pixels = std::vector(bytes.begin(), bytes.end()) }));
+    std::ofstream(folder / "square.gltf") << R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_texture_transform"],
+"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+"materials":[{"name":"stripes","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"baseColorTexture":{"index":0,
+"extensions":{"KHR_texture_transform":{"offset":[0.25,0],"scale":[0.5,1]}}}},"occlusionTexture":{"index":0}}],
+"textures":[{"source":0,"sampler":0}],"images":[{"uri":"texels.png"}],"samplers":[{"magFilter":9728,"minFilter":9728}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":6,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":48}],
+"buffers":[{"byteLength":120,"uri":"square.bin"}]})";
+    return folder / "square.gltf";
+}
+
+TEST(ExplainTextures, OfModelsAreWhereTheirTransformsPutThem) {
+    const std::filesystem::path file = transformedSquare();
+    std::vector<std::string> texts;
+    for (const Backend backend : test::kBothApis) {
+        Result<Engine> engine = Engine::create({ .backend = backend, .workers = 1, .validation = true });
+        ASSERT_TRUE(engine);
+        Result<Model> model = loadGltf(*engine, file);
+        ASSERT_TRUE(model) << model.error().message;
+        Scene scene(*engine);
+        scene.add(*model);
+        scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 3e4f } });
+        const PixelExplanation explained = explainedMiddle(*engine, scene);
+        ASSERT_EQ(explained.textures.size(), 3u);
+        PixelTexture const &color = explained.textures[1], &occlusion = explained.textures[2];
+        EXPECT_EQ(color.parameter, "baseColorMap");
+        ASSERT_TRUE(color.uv && color.texel && occlusion.uv && occlusion.texel);
+        EXPECT_NEAR(color.uv->x, 0.25 + 0.5 * kMiddleUv.x, 1e-5);
+        EXPECT_NEAR(color.uv->y, kMiddleUv.y, 1e-5);
+        EXPECT_EQ(*color.texel, float3(0, 0, 1)) << "the third; the factor is no part of it";
+        EXPECT_EQ(occlusion.parameter, "occlusionMap");
+        EXPECT_NEAR(occlusion.uv->x, kMiddleUv.x, 1e-5);
+        EXPECT_EQ(*occlusion.texel, float3(0, 0, 1));
+        EXPECT_EQ(sumOf(explained.textures), explained.value);
+        EXPECT_NEAR(explained.textures[1].value.z, 0, 1e-3) << "blue stays";
+        EXPECT_LT(explained.textures[1].value.x, -1e-3);
+        texts.push_back(toJson(explained));
+        test::expectNoErrors(*engine);
+    }
+    EXPECT_EQ(texts[0], texts[1]);
 }
 
 TEST(ExplainTextures, AreNoneOfMaterialsWithout) {

@@ -181,6 +181,20 @@ void addTextures(std::vector<PixelRow>& rows, PixelExplanation const& first, Ins
     }
 }
 
+void addTexels(std::vector<PixelRow>& rows, PixelExplanation const& first, InspectedFrame const* own,
+               InspectedFrame const* other) {
+    for (size_t i = 0; i < first.textures.size(); ++i) {
+        PixelTexture const& texture = first.textures[i];
+        if (!texture.texel) continue;
+        const auto text = [&](PixelExplanation const& of) {
+            return i < of.textures.size() ? textOf(of.textures[i].texel) : std::string(kNothing);
+        };
+        addRow(rows, "texels, linear", texture.parameter,
+               texture.uv ? fmt::format("at {:.6g}, {:.6g}", texture.uv->x, texture.uv->y) : "of the second set",
+               explainedText(own, text), explainedText(other, text));
+    }
+}
+
 void addExplanation(std::vector<PixelRow>& rows, InspectedFrame const* own, InspectedFrame const* other) {
     InspectedFrame const* const first = own && own->explanation ? own : other;
     if (!first || !first->explanation) return;
@@ -188,6 +202,7 @@ void addExplanation(std::vector<PixelRow>& rows, InspectedFrame const* own, Insp
     addLobes(rows, *first->explanation, own, other);
     addTextures(rows, *first->explanation, own, other);
     addSurface(rows, own, other);
+    addTexels(rows, *first->explanation, own, other);
 }
 
 // ---- attachments

@@ -66,6 +66,8 @@ TEST(PixelReport, TellsTheTexturesOfAnExplainedPixel) {
         { .value = { 1, 1, 1, 1 } },
         { .parameter = "baseColorMap", .texture = "oak.png", .size = { 64, 32 }, .value = { -0.5, -0.25, 0, 0 } }
     };
+    own.explanation->textures.push_back(
+            { .parameter = "normalMap", .uv = float2(0.5f, 2), .texel = float3(0.5f, 0.25f, 1) });
     InspectedFrame other = own;
     other.explanation->textures[1].value.z = 0.5;
     const std::vector<PixelRow> rows = pixelRows({ 5, 3 }, &own, &other);
@@ -75,6 +77,11 @@ TEST(PixelReport, TellsTheTexturesOfAnExplainedPixel) {
     EXPECT_EQ(row(rows, "baseColorMap").values[0], "-0.5, -0.25, 0");
     EXPECT_EQ(row(rows, "baseColorMap").values[1], "-0.5, -0.25, 0.5");
     EXPECT_TRUE(row(rows, "baseColorMap").differs);
+    const auto texel = std::ranges::find(rows, "texels, linear", &PixelRow::group);
+    ASSERT_NE(texel, rows.end());
+    EXPECT_EQ(texel->name, "normalMap");
+    EXPECT_EQ(texel->detail, "at 0.5, 2");
+    EXPECT_EQ(texel->values[1], "0.5, 0.25, 1");
 }
 
 TEST(PixelReport, MarksExactlyWhatDiffers) {
