@@ -241,7 +241,7 @@ std::optional<T> constantOf(scene::Material const& material, std::string const& 
 
 /// glTF materials say it in constants, "baseColorUv" and "baseColorTransform", and a matrix "baseColorUvMatrix" whose
 /// columns are 16 bytes apart. The built-in ones read the first set with v upwards.
-std::optional<TexelPlace> placeOf(scene::MaterialInstance const& instance, std::string const& parameter) {
+std::optional<TexelPlace> texelPlaceOf(scene::MaterialInstance const& instance, std::string const& parameter) {
     scene::Material const& material = *instance.material;
     if (material.package.name == "litTextured" || material.package.name == "unlitTextured")
         return TexelPlace{ .isTransformed = true, .transform = { 1, 0, 0, 0, -1, 0, 0, 1, 1 } };
@@ -311,7 +311,7 @@ std::optional<float3> numberAt(Image const& image, uint2 pixel) {
 /// Of one texture; nothing where the probe does not show the surface: something cuts it that the probe does not know.
 Result<void> readTexel(Engine& engine, Scene const& scene, View const& view, uint2 pixel,
                        scene::MaterialInstance const& own, PixelSurface const& surface, PixelTexture& texture) {
-    const std::optional<TexelPlace> place = placeOf(own, texture.parameter);
+    const std::optional<TexelPlace> place = texelPlaceOf(own, texture.parameter);
     if (!place) return {};
     const Result<Material> made =
             engine.create(MaterialDesc{ .package = engine.impl().enginePackage("gltf_unlit_opaque"),

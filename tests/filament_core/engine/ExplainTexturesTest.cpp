@@ -40,7 +40,7 @@ fragment { void material(inout MaterialInputs material) {
     material.reflectance = 0.0;
 } })";
 
-Owned<Texture> halves(Engine& engine, float4 texel, const char* name, uint2 size = { 1, 1 }) {
+Owned<Texture> halfTexture(Engine& engine, float4 texel, const char* name, uint2 size = { 1, 1 }) {
     std::vector<std::array<uint16_t, 4>> pixels(size_t{ size.x } * size.y);
     for (auto& pixel : pixels)
         for (int i = 0; i < 4; ++i) pixel[static_cast<size_t>(i)] = halfFromFloat(texel[i]);
@@ -58,7 +58,7 @@ PixelExplanation explainedMiddle(Engine& engine, Scene const& scene) {
     return {};
 }
 
-double4 sumOf(std::vector<PixelTexture> const& textures) {
+double4 sumOfTextures(std::vector<PixelTexture> const& textures) {
     double4 sum(0);
     for (PixelTexture const& texture : textures) sum += texture.value;
     return sum;
@@ -71,8 +71,8 @@ TEST(ExplainTextures, OfAProductChangeItInTurn) {
         test::SquareStage stage(backend, kProduct);
         Scene scene(stage.engine);
         stage.square.add(scene, stage.instance);
-        const Owned<Texture> base = halves(stage.engine, { 0.5f, 0.25f, 1, 1 }, "bricks", { 4, 2 });
-        Owned<Texture> detail = halves(stage.engine, { 0.5f, 2, 0, 1 }, "scratches");
+        const Owned<Texture> base = halfTexture(stage.engine, { 0.5f, 0.25f, 1, 1 }, "bricks", { 4, 2 });
+        Owned<Texture> detail = halfTexture(stage.engine, { 0.5f, 2, 0, 1 }, "scratches");
         const uint32_t one = 1;
         const Owned<Texture> codes = stage.engine.own(stage.engine.create(
                 TextureDesc{ .format = Format::R32UI, .pixels = std::as_bytes(std::span(&one, 1)), .name = "codes" }));
@@ -91,7 +91,7 @@ TEST(ExplainTextures, OfAProductChangeItInTurn) {
         EXPECT_EQ(double3(explained.textures[0].value), double3(3));
         EXPECT_EQ(double3(explained.textures[1].value), double3(1.5, 0.75, 3) - double3(3));
         EXPECT_EQ(double3(explained.textures[2].value), double3(0.75, 1.5, 0) - double3(1.5, 0.75, 3));
-        EXPECT_EQ(sumOf(explained.textures), explained.value);
+        EXPECT_EQ(sumOfTextures(explained.textures), explained.value);
         EXPECT_EQ(test::renderLinear(stage.engine, scene, test::SquareMesh::view()).pixels, before.pixels);
         texts.push_back(toJson(explained));
     }
@@ -109,7 +109,7 @@ TEST(ExplainTextures, OfNormalsTakeTheLightThatTheyTurnFrom) {
         scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 3e4f } });
         for (const float degrees : { 0.0f, 60.0f }) {
             const float angle = degrees * std::numbers::pi_v<float> / 180;
-            const Owned<Texture> normals = halves(
+            const Owned<Texture> normals = halfTexture(
                     stage.engine, { 0.5f + 0.5f * std::sin(angle), 0.5f, 0.5f + 0.5f * std::cos(angle), 1 }, "normals");
             ASSERT_TRUE(stage.engine.set(stage.instance, "normalMap", normals.get()));
             const PixelExplanation explained = explainedMiddle(stage.engine, scene);
@@ -117,7 +117,7 @@ TEST(ExplainTextures, OfNormalsTakeTheLightThatTheyTurnFrom) {
             const double flat = explained.textures[0].value.x;
             EXPECT_GT(flat, 0);
             EXPECT_NEAR(explained.textures[1].value.x / flat, std::cos(static_cast<double>(angle)) - 1, 5e-3);
-            EXPECT_EQ(sumOf(explained.textures), explained.value);
+            EXPECT_EQ(sumOfTextures(explained.textures), explained.value);
             texts.push_back(toJson(explained));
         }
     }
@@ -125,8 +125,9 @@ TEST(ExplainTextures, OfNormalsTakeTheLightThatTheyTurnFrom) {
 }
 
 /// Of the pixel in the middle: half a pixel right of the middle and below it.
-const double kMiddle = std::tan(40 * std::numbers::pi / 180) / 16;
-const float2 kMiddleUv{ static_cast<float>((1 + kMiddle) / 2), static_cast<float>((1 + kMiddle) / 2) }; // v downwards
+const double kMiddleOffset = std::tan(40 * std::numbers::pi / 180) / 16;
+const float2 kMiddleUv{ static_cast<float>((1 + kMiddleOffset) / 2),
+                        static_cast<float>((1 + kMiddleOffset) / 2) }; // v downwards
 
 TEST(ExplainTextures, OfBuiltInMaterialsHaveTheTexelsThatTheirShadersRead) {
     std::vector<std::string> texts;
@@ -204,7 +205,7 @@ TEST(ExplainTextures, OfModelsAreWhereTheirTransformsPutThem) {
         EXPECT_EQ(occlusion.parameter, "occlusionMap");
         EXPECT_NEAR(occlusion.uv->x, kMiddleUv.x, 1e-5);
         EXPECT_EQ(*occlusion.texel, float3(0, 0, 1));
-        EXPECT_EQ(sumOf(explained.textures), explained.value);
+        EXPECT_EQ(sumOfTextures(explained.textures), explained.value);
         EXPECT_NEAR(explained.textures[1].value.z, 0, 1e-3) << "blue stays";
         EXPECT_LT(explained.textures[1].value.x, -1e-3);
         texts.push_back(toJson(explained));
