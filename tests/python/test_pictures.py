@@ -93,6 +93,21 @@ class ClosedForms(unittest.TestCase):
         with self.assertRaisesRegex(fc.InvalidArgumentError, "pixel: 16, 0 is not in a view of 16 x 16"):
             fc.explain_pixel(self.engine, self.scene, view, 16, 0)
 
+    def test_explained_pixels_have_the_texels_of_their_textures(self):
+        codes = np.zeros((2, 2, 4), np.uint8)
+        codes[0, 1] = 255, 0, 51, 255  # right of the middle and above it
+        material = self.engine.built_in_material("unlitTextured").instance()
+        material.set_texture("baseColorMap", self.engine.texture(codes, srgb=False, name="codes"), filter="nearest")
+        self.scene.add_mesh(quad(self.engine), material)
+        explained = fc.explain_pixel(self.engine, self.scene, flat_view(16, 16), 11, 3)
+        none, texture = explained["textures"]
+        self.assertEqual((none["name"], none["value"]), ("none", [1, 1, 1, 1]))
+        self.assertEqual((texture["name"], texture["texture"], texture["size"]), ("baseColorMap", "codes", [2, 2]))
+        np.testing.assert_allclose(texture["uv"], [11.5 / 16, 3.5 / 16], atol=1e-6)
+        np.testing.assert_allclose(texture["texel"], [1, 0, 0.2], atol=1e-6)
+        np.testing.assert_allclose(np.add(none["value"], texture["value"]), [1, 0, 0.2, 1], atol=1e-4)
+        self.assertEqual(np.add(none["value"], texture["value"]).tolist(), explained["value"])
+
     def test_a_parallel_lens_shows_metres(self):
         self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)), transform=placed(scale=0.5))
         for metres, side in ((2, 32), (4, 16), (8, 8)):
