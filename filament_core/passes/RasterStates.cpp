@@ -227,7 +227,10 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.equalsDepth) desc.depthStencil.depthCompare = CompareOp::Equal;
     useStencil(desc, slot);
-    if (slot.depthOnly) return desc;
+    if (slot.depthOnly) {
+        composeInAnyOrder(desc, slot.transparency);
+        return desc;
+    }
     BlendState blend =
             slot.debug == DebugSlot::None ? blendState(material.package) : debugBlendState(slot.debug, material);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
@@ -243,6 +246,7 @@ PipelineDesc surfaceStates(PassSlot const& slot, PipelineUse const& use, scene::
     scene::Material const& material = *use.instance.material;
     PipelineDesc desc = statesOf(slot, material, raster, &geometry, use.mirrored);
     usePass(desc, material.package.transparency, use.pass);
+    if (slot.equalsDepth && use.pass == prepare::DrawPass::Second) desc.raster.cull = CullMode::Front; // SlabCaps.cpp
     if (slot.isPick && use.pass == prepare::DrawPass::Second) desc.raster.cull = CullMode::Back; // PreparedPick::fronts
     return desc;
 }

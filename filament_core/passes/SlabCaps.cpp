@@ -22,9 +22,22 @@ StencilState unmarked() { return bothSides({ .test = StencilTest::Equal, .onFail
 /// Surfaces that leave their depth alone.
 PassSlot depthAlone(PassSlot slot) {
     if (slot.depthOnly) return slot;
-    slot.debug = DebugSlot::Values; // nothing is lit, and samples of a pixel are cut one by one
     slot.transparency = shader::kTransparencyDepth;
+    if (slot.layout.samples == 1) {
+        slot.depthOnly = true;
+        slot.debug = DebugSlot::None;
+        slot.shading = depthOfViewKey(slot.shading);
+    } else {
+        slot.debug = DebugSlot::Values; // cuts samples of a pixel one by one, and lights nothing
+    }
     return slot;
+}
+
+/// The back faces of surfaces alone: RasterStates.cpp.
+std::span<const DrawCall> backFaces(FrameContext const& context, std::span<const DrawCall> draws) {
+    const std::span<DrawCall> backs = context.arena->copy(draws);
+    for (DrawCall& draw : backs) draw.pass = prepare::DrawPass::Second;
+    return backs;
 }
 
 } // namespace
@@ -42,7 +55,8 @@ bool showsCaps(FrameContext const& context) {
 bool showsSlabCaps(FrameContext const& context) { return context.settings().cutsSlabs && showsCaps(context); }
 
 SlabBlocks declareSlabCaps(FrameContext const& context, PassBlock target) {
-    return { declareSectionPart(context, target, SectionPart::FirstSurfaces),
+    const PassBlock first = declareSectionPart(context, target, SectionPart::FirstSurfaces);
+    return { first, declareSectionPart(context, first, SectionPart::SlabCaps),
              declareSectionPart(context, target, SectionPart::SlabCaps) };
 }
 
@@ -54,11 +68,18 @@ ChosenSlabCaps chooseSlabCaps(PassContext& pass, FrameContext const& context, Pa
     const std::span<const DrawCall> draws = cutOpen(context, surfaces);
     ChosenSlabCaps chosen;
     chosen.first = chooseDraws(pass, context, depthAlone(slot), blocks.first, draws);
-    PassSlot caps = slot;
-    caps.equalsDepth = true;
-    caps.stencil = marked();
-    chosen.caps = { surfaceGroups(pass, context, blocks.caps, textures), draws,
-                    choosePipelines(pass, *context.arena, pipelines, pipelines.slot(caps), draws, variant, channels) };
+    const std::span<const DrawCall> backs = backFaces(context, draws);
+    PassSlot marks = depthAlone(slot);
+    marks.equalsDepth = true;
+    marks.stencil = marked();
+    chosen.marks = chooseDraws(pass, context, marks, blocks.marks, backs);
+    if (!slot.depthOnly) {
+        PassSlot caps = slot;
+        caps.equalsDepth = true;
+        chosen.caps = { surfaceGroups(pass, context, blocks.caps, textures), backs,
+                        choosePipelines(pass, *context.arena, pipelines, pipelines.slot(caps), backs, variant,
+                                        channels) };
+    }
     const PassSlot others{ .layout = slot.layout,
                            .subpass = slot.subpass,
                            .depthRange = slot.depthRange,
@@ -74,7 +95,7 @@ ChosenSlabCaps chooseSlabCaps(PassContext& pass, FrameContext const& context, Pa
 
 void recordSlabCaps(PassContext& pass, DrawContext draws, ChosenSlabCaps const& chosen) {
     if (!chosen.farDepth) return;
-    for (ChosenDraws const* list : { &chosen.first, &chosen.caps }) {
+    for (ChosenDraws const* list : { &chosen.first, &chosen.marks, &chosen.caps }) {
         draws.passGroups = list->passGroups;
         recordDrawRanges(pass, draws, list->draws, list->pipelines);
     }

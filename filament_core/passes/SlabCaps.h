@@ -3,9 +3,10 @@
 /// and boxes (SectionCut::Each). No surface is there; the first one behind, in what is cut off, tells: a back face if
 /// the ray is inside.
 ///   Draws   into the depth of a pass, before all else in it: 1. the first surfaces behind where rays enter, of what
-///           planes cut; 2. of those the back faces behind what is left, which show caps and mark their samples in the
-///           stencil; 3. infinite depth and no mark elsewhere. So caps have the depth of their back face, as those of
-///           single planes have (section_api.glsl), and front faces that are cut off hide nothing but caps.
+///           planes cut; 2. of those the back faces behind what is left, which mark their samples in the stencil;
+///           3. these once more, which show caps: what is lit writes no stencil, so that devices test its depth first;
+///           4. infinite depth and no mark elsewhere. So caps have the depth of their back face, as those of single
+///           planes have (section_api.glsl), and front faces that are cut off hide nothing but caps.
 ///   Needs   depth with a stencil: needsStencil().
 ///   Skips   views without such rays: showsSlabCaps().
 ///   Shadow maps have the same (ShadowPass): light ends where it leaves the solid, not the slab.
@@ -30,12 +31,13 @@ inline bool needsStencil(FrameContext const& context) {
 
 /// Of the pass's block; none by default: there are no such caps.
 struct SlabBlocks {
-    PassBlock first, caps;
+    PassBlock first, marks, caps;
 };
 SlabBlocks declareSlabCaps(FrameContext const& context, PassBlock target);
 
 struct ChosenSlabCaps {
-    ChosenDraws first, caps;
+    ChosenDraws first, marks;
+    ChosenDraws caps; ///< empty where depth alone is drawn
     backend::PipelineHandle farDepth;
 };
 /// `slot`: of the opaque surfaces of the pass, which are drawn with `textures`, `variant` and `channels`.
