@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/effects/Pairs.h"
 
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -283,6 +284,33 @@ void addChain(std::vector<Pair>& all, const char* file) {
     all.push_back({ "four samples", file, plain, withEffects([](View& view) { view.samples = 4; }) });
 }
 
+/// Planes around the middle of the model, which is 1 m large. Six keep a box of 0.4 m.
+void addSections(std::vector<Pair>& all, const char* file) {
+    const auto cut = [](size_t planes, bool isLit) {
+        return [planes, isLit](Scene& scene, View& view) {
+            if (isLit) scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+            view.quality.shadows = isLit ? ShadowFilter::Pcf3 : ShadowFilter::Off;
+            constexpr std::array kAxes{ double3(0, 0, 1), double3(0, 1, 0), double3(1, 0, 0) };
+            for (size_t i = 0; i < planes; ++i) {
+                const double3 inwards = i % 2 == 0 ? -kAxes[i / 2] : kAxes[i / 2];
+                view.section.planes[i] = sectionPlane(inwards * -0.2, inwards);
+            }
+        };
+    };
+    struct Section {
+        const char *plain, *lit;
+        size_t planes;
+    };
+    constexpr Section kSections[] = { { "section of one plane", "section of one plane, and shadows", 1 },
+                                      { "section of a slab", "section of a slab, and shadows", 2 },
+                                      { "section of a box", "section of a box, and shadows", 6 } };
+    for (auto const& [plain, lit, planes] : kSections) {
+        all.push_back(
+                { .name = plain, .file = file, .plain = cut(0, false), .effect = cut(planes, false), .isCut = true });
+        all.push_back({ .name = lit, .file = file, .plain = cut(0, true), .effect = cut(planes, true), .isCut = true });
+    }
+}
+
 /// What whole views of a model under a sun take, beside one with the defaults.
 void addPresets(std::vector<Pair>& all, const char* file) {
     const auto sunlit = [](std::function<void(View&)> const& set) {
@@ -391,6 +419,7 @@ std::vector<Pair> effectPairs() {
     addResolutions(all, kHelmet);
     addChain(all, kHelmet);
     addPresets(all, kHelmet);
+    addSections(all, kHelmet);
     return all;
 }
 

@@ -21,6 +21,7 @@ struct Pair {
     std::function<void(Scene&, View&)> effect{}; ///< the scene with the effect
     bool isUnseen = false;
     bool hasMirror = false; ///< a floor with screen-space reflections
+    bool isCut = false;     ///< the model is loaded with section planes
     /// The effect is reflection probes in the middle: half the sides of their cubes; the model fits into 1 m.
     std::vector<float> probes{};
     Moving moving = Moving::Nothing;

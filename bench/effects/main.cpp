@@ -118,7 +118,7 @@ Result<tools::MaterialStand> makeMirror(Engine& engine) {
 Result<Subject> load(Engine& engine, Pair const& pair, Options const& options) {
     auto environment = loadEnvironment(engine, options.assets / "environments" / "studio_small_03_1k.hdr");
     if (!environment) return environment.error();
-    auto model = loadGltf(engine, options.assets / "models" / pair.file);
+    auto model = loadGltf(engine, options.assets / "models" / pair.file, { .sectionPlanes = pair.isCut });
     if (!model) return model.error();
     Subject subject{ std::move(*model), std::move(*environment), {} };
     if (pair.hasMirror) {

@@ -130,9 +130,9 @@ struct FrameUniforms {
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last
-                   ///< level of the scene colour behind, or the DebugView whose value surfaces leave; w: mip levels
-                   ///< added to those of materials' textures
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all, or a
+                   ///< SectionPart, < 0; z: last level of the scene colour behind, or the DebugView whose value
+                   ///< surfaces leave; w: mip levels added to those of materials' textures
     float4 picture; ///< valid pixels of the scene colour behind: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they
                        ///< hit, metres; w: last level of the hierarchical depth buffer
