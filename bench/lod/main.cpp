@@ -3,7 +3,7 @@
 // seen from its edge.
 //   Also    how long the model loads with and without, and how many pixels of the images differ by more than 2 / 255.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
-#include "base/Statistics.h"
+#include "bench/ChoicesInTurns.h"
 #include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -22,8 +21,6 @@
 namespace filament_core::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct Options {
     std::filesystem::path model;
     int rounds = 5, frames = 2;
@@ -31,10 +28,6 @@ struct Options {
     uint2 size{ 1280, 720 };
     bool shadows = false;
 };
-
-double millisecondsSince(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 /// Percent of the pixels.
 double differing(Image const& a, Image const& b) {
@@ -76,12 +69,7 @@ public:
         mView.lod.pixels = pixels;
         mRenderer.render(mScene, mView, mTarget);
         mEngine.waitIdle();
-        const auto begin = Clock::now();
-        for (int i = 0; i < mOptions.frames; ++i) {
-            mRenderer.render(mScene, mView, mTarget);
-            mEngine.waitIdle();
-        }
-        return millisecondsSince(begin) / mOptions.frames;
+        return millisecondsPerFrame(mEngine, mOptions.frames, [&] { mRenderer.render(mScene, mView, mTarget); });
     }
 
     uint32_t triangles() const { return mRenderer.statistics().triangles; }
@@ -125,20 +113,16 @@ Result<void> measureOn(Backend backend, Options const& options) {
     Device device(std::move(*engine), options);
     if (Result<void> loaded = device.load(); !loaded) return loaded;
     constexpr std::array choices{ 0.0f, 0.5f, 1.0f, 2.0f };
-    std::array<std::vector<double>, choices.size()> times, ratios;
     std::array<uint32_t, choices.size()> triangles{};
-    for (int round = 0; round < options.rounds; ++round) {
-        for (size_t i = 0; i < choices.size(); ++i) {
-            times[i].push_back(device.measure(choices[i]));
-            ratios[i].push_back(times[i].back() / times[0].back());
-            triangles[i] = device.triangles();
-        }
-    }
+    const ChoicesInTurns<choices.size()> turns(options.rounds, [&](size_t i) {
+        const double milliseconds = device.measure(choices[i]);
+        triangles[i] = device.triangles();
+        return std::array{ milliseconds };
+    });
     const Image finest = device.image(0);
     for (size_t i = 0; i < choices.size(); ++i) {
         std::printf("| %s | %g | %u | %.1f | %.2f | %.2f %% |\n", device.name(), static_cast<double>(choices[i]),
-                    triangles[i], *std::ranges::min_element(times[i]), median(ratios[i]),
-                    differing(finest, device.image(choices[i])));
+                    triangles[i], turns.least(i), turns.ratio(i), differing(finest, device.image(choices[i])));
         std::fflush(stdout);
     }
     return {};

@@ -10,7 +10,7 @@
 // Images with and without culling are compared as well: they have the same bits.
 //   Status  0: measured, table on standard output; 1: the reason in one line, or images that differ.
 #include "base/Assert.h"
-#include "base/Statistics.h"
+#include "bench/ChoicesInTurns.h"
 #include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -140,17 +139,13 @@ public:
 
     /// Milliseconds per frame.
     double measure(Choice const& choice) {
-        using Clock = std::chrono::steady_clock;
         choose(choice);
         mRenderer.render(*mScene, mView, mTarget);
         mEngine.waitIdle();
-        const auto begin = Clock::now();
-        for (int i = 0; i < mOptions.frames; ++i) {
+        return millisecondsPerFrame(mEngine, mOptions.frames, [&] {
             move();
             mRenderer.render(*mScene, mView, mTarget);
-            mEngine.waitIdle();
-        }
-        return std::chrono::duration<double, std::milli>(Clock::now() - begin).count() / mOptions.frames;
+        });
     }
 
     Result<bool> hasSameBits() {
@@ -298,18 +293,15 @@ Result<void> measureOn(Backend backend, Options const& options) {
     Device device(std::move(*engine), options);
     for (std::string const& scene : options.scenes) {
         if (Result<void> shown = device.show(scene); !shown) return shown;
-        std::array<std::vector<double>, kChoices.size()> times, ratios;
         std::array<FrameStatistics, kChoices.size()> drawn;
-        for (int round = 0; round < options.rounds; ++round) {
-            for (size_t i = 0; i < kChoices.size(); ++i) {
-                times[i].push_back(device.measure(kChoices[i]));
-                ratios[i].push_back(times[i].back() / times[0].back());
-                drawn[i] = device.statistics();
-            }
-        }
+        const ChoicesInTurns<kChoices.size()> turns(options.rounds, [&](size_t i) {
+            const double milliseconds = device.measure(kChoices[i]);
+            drawn[i] = device.statistics();
+            return std::array{ milliseconds };
+        });
         for (size_t i = 0; i < kChoices.size(); ++i)
             std::printf("| %s | %s | %s | %u | %u | %.1f | %.2f |\n", scene.c_str(), device.name(), kChoices[i].name,
-                        drawn[i].visible, drawn[i].triangles, *std::ranges::min_element(times[i]), median(ratios[i]));
+                        drawn[i].visible, drawn[i].triangles, turns.least(i), turns.ratio(i));
         std::fflush(stdout);
         const Result<bool> same = device.hasSameBits();
         if (!same) return same.error();

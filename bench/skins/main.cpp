@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// skins_bench: frames with many copies of a skinned model, each in a pose of its own, drawn as instances and one by
-// one, in turns. The second scene differs only in its material instances, of which each copy has one.
+// skins_bench: frames with many copies of a model with skins or morph targets, each in a pose of its own, drawn as
+// instances and one by one, in turns. The second scene differs only in its material instances, of which each copy has
+// one.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Assert.h"
-#include "base/Statistics.h"
+#include "bench/ChoicesInTurns.h"
 #include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
@@ -11,7 +12,6 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -23,6 +23,7 @@ struct Options {
     std::string model;
     int copies = 256, rounds = 15;
     uint2 size{ 320, 180 };
+    bool hasMotion = false;
 };
 
 /// A crowd on a grid.
@@ -49,31 +50,25 @@ public:
         for (size_t i = 0; i < mAnimators.size(); ++i)
             mAnimators[i].apply(0, std::fmod(seconds + 0.037 * static_cast<double>(i), model.animationSeconds(0)));
     }
-    void setSize(uint2 size) { mView.size = size; }
+    void set(Options const& options) {
+        mView.size = options.size;
+        mView.effects.motionBlur.enabled = options.hasMotion;
+    }
 
-    /// Milliseconds until the device has finished.
-    double draw(Engine& engine, SwapChain target) {
-        const auto begin = std::chrono::steady_clock::now();
-        mRenderer.render(mScene, mView, target);
-        engine.waitIdle();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    /// Milliseconds: prepare and record, replay, and until the device has finished.
+    std::array<double, 3> draw(Engine& engine, SwapChain target) {
+        const double whole = millisecondsPerFrame(engine, 1, [&] { mRenderer.render(mScene, mView, target); });
+        const std::vector<FrameTimings> all = mRenderer.takeTimings();
+        FILAMENT_ASSERT(!all.empty(), "a frame that the device has finished has timings");
+        return { all.back().prepareMilliseconds + all.back().recordMilliseconds, all.back().replayMilliseconds, whole };
     }
     uint32_t draws() const { return mRenderer.statistics().draws; }
-    std::optional<FrameTimings> timings() {
-        const std::vector<FrameTimings> all = mRenderer.takeTimings();
-        return all.empty() ? std::nullopt : std::optional(all.back());
-    }
 
 private:
     Scene mScene;
     Renderer mRenderer;
     View mView;
     std::vector<Animator> mAnimators;
-};
-
-struct Figures {
-    std::vector<double> frame, record, replay;
-    uint64_t commands = 0;
 };
 
 Result<void> measure(Options const& options, Backend backend) {
@@ -85,33 +80,28 @@ Result<void> measure(Options const& options, Backend backend) {
     Crowd instances(*engine, *model, options.copies, true), alone(*engine, *model, options.copies, false);
     const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = options.size }));
     std::array<Crowd*, 2> crowds{ &alone, &instances };
-    std::array<Figures, 2> figures;
-    constexpr int kWarmUp = 3;
-    for (int round = 0; round < options.rounds + kWarmUp; ++round) {
-        for (size_t i = 0; i < crowds.size(); ++i) {
-            crowds[i]->setSize(options.size);
-            crowds[i]->pose(0.05 * round, *model);
-            const uint64_t before = engine->statistics().commands;
-            const double milliseconds = crowds[i]->draw(*engine, target);
-            const auto timings = crowds[i]->timings();
-            if (round < kWarmUp || !timings) continue;
-            figures[i].frame.push_back(milliseconds);
-            figures[i].record.push_back(timings->prepareMilliseconds + timings->recordMilliseconds);
-            figures[i].replay.push_back(timings->replayMilliseconds);
-            figures[i].commands = engine->statistics().commands - before;
-        }
-    }
+    for (Crowd* crowd : crowds) crowd->set(options);
+    std::array<uint64_t, 2> commands{};
+    double seconds = 0;
+    const auto draw = [&](size_t i) {
+        if (i == 0) seconds += 0.05;
+        crowds[i]->pose(seconds, *model);
+        const uint64_t before = engine->statistics().commands;
+        const std::array<double, 3> figures = crowds[i]->draw(*engine, target);
+        commands[i] = engine->statistics().commands - before;
+        return figures;
+    };
+    using Turns = ChoicesInTurns<2, 3>;
+    Turns(3, draw); // without what only first frames do
+    const Turns turns(options.rounds, draw);
     for (size_t i = 0; i < crowds.size(); ++i) {
         std::printf("%-7s %-10s %6u draws %7llu commands  prepare and record %7.3f  replay %8.3f  frame %8.3f ms\n",
                     toString(backend), i == 0 ? "one by one" : "instances", crowds[i]->draws(),
-                    static_cast<unsigned long long>(figures[i].commands), median(figures[i].record),
-                    median(figures[i].replay), median(figures[i].frame));
+                    static_cast<unsigned long long>(commands[i]), turns.median(i, 0), turns.median(i, 1),
+                    turns.median(i, 2));
     }
-    const auto ratio = [&](std::vector<double> Figures::*of) {
-        return median(figures[1].*of) / median(figures[0].*of);
-    };
-    std::printf("%-7s ratio: prepare and record %.2f, replay %.2f, frame %.2f\n", toString(backend),
-                ratio(&Figures::record), ratio(&Figures::replay), ratio(&Figures::frame));
+    std::printf("%-7s ratio: prepare and record %.2f, replay %.2f, frame %.2f\n", toString(backend), turns.ratio(1, 0),
+                turns.ratio(1, 1), turns.ratio(1, 2));
     return {};
 }
 
@@ -121,10 +111,13 @@ Result<void> measure(Options const& options, Backend backend) {
 int main(int argc, char** argv) {
     using namespace filament_core;
     bench::Options options;
-    tools::CommandLine app{ "Frames with many copies of a skinned model, as instances and one by one." };
-    app.option("--model", options.model, "glTF file with a skin and an animation").required();
+    tools::CommandLine app{
+        "Frames with many copies of a model with skins or morph targets, as instances and one by one."
+    };
+    app.option("--model", options.model, "glTF file with an animation of skins or morph targets").required();
     app.option("--copies", options.copies, "copies of the model").inRange(1, 10'000);
     app.option("--rounds", options.rounds, "rounds; each draws both").inRange(1, 1000);
+    app.flag("--motion", options.hasMotion, "with motion blur, which draws the motion of the copies");
     if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
         if (const Result<void> measured = bench::measure(options, backend); !measured) {
