@@ -45,7 +45,7 @@ TEST(MaterialText, SurvivesEditsAnywhere) {
     constexpr std::string_view kMarks = "{}[]:,\"'\n#/*-.0aZ\\";
     size_t accepted = 0;
     for (int round = 0; round < 5000; ++round) {
-        std::string text = test::editedText(texts[random() % texts.size()], random, kMarks);
+        std::string text = filament_core::test::editedText(texts[random() % texts.size()], random, kMarks);
         if (random() % 4 == 0)
             text.insert(random() % (text.size() + 1), texts[random() % texts.size()].substr(0, random() % 40));
         accepted += test::fuzzMaterialText(text);
