@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights of a file: KHR_lights_punctual, and what it lacks: FILAMENT_light, docs/gltf.md.
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
+#include "filament_core/assets/gltf/GltfUri.h"
+#include "filament_core/assets/tables/LightImageTable.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <memory>
 
 namespace filament_core::assets {
 namespace {
@@ -50,6 +56,77 @@ void parseArea(JsonNode const& area, LightData& light) {
     light.isVisible = area["visible"].boolean(false);
 }
 
+std::vector<uint32_t> parseWords(JsonNode const& node) {
+    const std::string uri = node.text();
+    const Result<std::vector<std::byte>> bytes =
+            isDataUri(uri) ? readGltfUri(uri, GltfFolder(std::filesystem::path()))
+                           : Result<std::vector<std::byte>>(fail(ErrorCode::Corrupt, "it must be a data URI"));
+    if (!bytes || bytes->size() % 4 != 0) {
+        node.diagnostics().warn("{}: {}; it is left out", node.path(),
+                                bytes ? "the bytes are no words" : bytes.error().message);
+        return {};
+    }
+    std::vector<uint32_t> words(bytes->size() / 4);
+    if (!words.empty()) std::memcpy(words.data(), bytes->data(), bytes->size());
+    return words;
+}
+
+/// Whether shaders can look it up: that all levels are where lightImageTable() puts them. Any word is a colour.
+bool isImageTable(std::span<const uint32_t> words) {
+    if (words.size() < kLightImageHeaderWords) return false;
+    uint32_t width = words[0], height = words[1];
+    if (width == 0 || height == 0 || std::max(width, height) > kMaxLightImageSize) return false;
+    const uint32_t levels = static_cast<uint32_t>(std::bit_width(std::max(width, height)));
+    size_t at = kLightImageHeaderWords + levels;
+    if (words[2] != levels - 1 || words.size() < at) return false;
+    for (uint32_t i = 0; i < levels; ++i) {
+        if (words[kLightImageHeaderWords + i] != at) return false;
+        at += size_t{ width + 2 } * (height + 2);
+        width = std::max(width / 2, 1u), height = std::max(height / 2, 1u);
+    }
+    return words.size() == at;
+}
+
+/// Rows, columns, rows a radian, and two entries of 16 bits a word.
+bool isProfileTable(std::span<const uint32_t> words) {
+    constexpr uint32_t kMost = 1024;
+    if (words.size() < 3 || words[0] < 2 || words[0] > kMost || words[1] < 1 || words[1] > kMost) return false;
+    const float rows = std::bit_cast<float>(words[2]);
+    return rows > 0 && rows < 1e4f && words.size() == 3 + (size_t{ words[0] } * words[1] + 1) / 2;
+}
+
+void parseTables(JsonNode const& own, LightData& light) {
+    LightTables tables;
+    if (const JsonNode image = own["image"]; image.exists()) {
+        const bool hasImage = light.shape == AreaShape::None || light.shape == AreaShape::Rect;
+        tables.image = parseWords(image["words"]);
+        const bool isSquare = light.type != LightType::Point || light.shape != AreaShape::None ||
+                              (tables.image.size() > 1 && tables.image[0] == tables.image[1]);
+        if (!hasImage || !isSquare || !isImageTable(tables.image)) {
+            own.diagnostics().warn("{}.image: is no image for this light; it is left out", own.path());
+            tables.image.clear();
+        }
+        parseNumber(image["aspect"], tables.aspect, 1.0f / 16384, 16384);
+        parseNumber(image["width"], tables.imageMeters, 1.01e-6f, 0.99e12f);
+        std::array<double, 2> offset{ 0, 0 };
+        image["offset"].numbers(offset);
+        for (int i = 0; i < 2; ++i)
+            tables.imageOffset[i] = static_cast<float>(std::clamp(offset[static_cast<size_t>(i)], -1e12, 1e12));
+    }
+    if (const JsonNode profile = own["profile"]; profile.exists()) {
+        const bool hasProfile = light.shape == AreaShape::None && light.type != LightType::Directional;
+        tables.profile = parseWords(profile["words"]);
+        if (!hasProfile || !isProfileTable(tables.profile)) {
+            own.diagnostics().warn("{}.profile: is no profile for this light; it is left out", own.path());
+            tables.profile.clear();
+        }
+        parseNumber(profile["peak"], tables.peak, 0, kMaxFloat);
+        parseNumber(profile["lumens"], tables.lumens, 0, kMaxFloat);
+    }
+    if (!tables.image.empty() || !tables.profile.empty())
+        light.tables = std::make_shared<const LightTables>(std::move(tables));
+}
+
 void parseOwnValues(JsonNode const& own, LightData& light) {
     if (const JsonNode color = own["color"]; color.exists()) {
         const auto exact = parseFactors<3>(color, 1, 0, kMaxFloat);
@@ -65,6 +142,7 @@ void parseOwnValues(JsonNode const& own, LightData& light) {
     parseNumber(own["haloSize"], light.haloSize, 1, 1000);
     parseNumber(own["haloFalloff"], light.haloFalloff, 0, 10'000);
     if (const JsonNode area = own["area"]; area.exists()) parseArea(area, light);
+    parseTables(own, light);
 }
 
 /// What is wrong with it costs the extension, not the light.

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace filament_core::assets {
 namespace {
@@ -35,6 +38,32 @@ Json areaJson(LightData const& light) {
     return area;
 }
 
+/// RFC 4648, section 4.
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
+        for (size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+std::string dataUri(std::vector<uint32_t> const& words) {
+    return "data:application/octet-stream;base64," + base64(std::as_bytes(std::span(words)));
+}
+
+Json imageJson(LightTables const& tables, bool isSun) {
+    Json image{ { "aspect", tables.aspect } };
+    if (isSun) image["width"] = tables.imageMeters, image["offset"] = { tables.imageOffset.x, tables.imageOffset.y };
+    std::vector<uint32_t> words = tables.image;
+    words[3] = 0; // its number in one engine
+    image["words"] = dataUri(words);
+    return image;
+}
+
 Json ownJson(LightData const& light) {
     const LightData rest;
     Json own = Json::object();
@@ -51,6 +80,12 @@ Json ownJson(LightData const& light) {
     } else {
         addUnless(rest.sourceRadiusMeters, own, "sourceRadius", light.sourceRadiusMeters);
     }
+    if (light.tables && !light.tables->image.empty())
+        own["image"] = imageJson(*light.tables, light.type == LightType::Directional);
+    if (light.tables && !light.tables->profile.empty())
+        own["profile"] = { { "peak", finite(double{ light.tables->peak }) },
+                           { "lumens", finite(double{ light.tables->lumens }) },
+                           { "words", dataUri(light.tables->profile) } };
     return own;
 }
 

@@ -116,6 +116,15 @@ struct MeshData {
 enum class LightType : uint8_t { Directional, Point, Spot };
 enum class AreaShape : uint8_t { None, Rect, Disc, Tube };
 
+/// FILAMENT_light: the image and the profile of a light as shaders read them.
+struct LightTables {
+    std::vector<uint32_t> image, profile; ///< shader::kImageHeaderWords, kProfileHeaderWords; empty: none
+    float aspect = 1;                     ///< of the image: height over width
+    float imageMeters = 10;               ///< of suns: SunLight::cookieMeters, and its offset
+    float2 imageOffset{ 0.0f };
+    float peak = 0, lumens = 0; ///< what the profile's file measured
+};
+
 /// KHR_lights_punctual: shines along -Z of its node. Tubes lie along its X.
 struct LightData {
     std::string name;
@@ -138,6 +147,7 @@ struct LightData {
     float2 sizeMeters{ 0.0f };         ///< of a rectangle; a disc has its radius twice, a tube its length and radius
     float luminance = 0;               ///< nits, of areas: instead of `intensity`
     bool isTwoSided = false, isVisible = false;
+    std::shared_ptr<const LightTables> tables{};
 };
 
 /// Square metres that an area light shows from where it looks largest; its candelas there are these times its nits.

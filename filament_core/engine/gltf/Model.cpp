@@ -23,6 +23,7 @@ Model::Impl::~Impl() {
     destroyAll(indexBuffers);
     destroyAll(textures);
     destroyAll(profiles);
+    destroyAll(lightImages);
 }
 
 std::shared_ptr<const Model::Impl> engine::shareOf(Model const& model, Engine::Impl const& engine) {

@@ -128,6 +128,7 @@ struct Model::Impl {
 
     std::vector<Texture> textures;
     std::vector<LightProfile> profiles;
+    std::vector<LightImage> lightImages;
     std::vector<MorphTargets> morphTargets;
     std::vector<VertexBuffer> vertexBuffers;
     std::vector<uint32_t> vertexVersions; ///< of these vertices, as they were loaded: scene::ContentVersions

@@ -2,6 +2,7 @@
 #include "filament_core/engine/gltf/ModelUpload.h"
 
 #include "base/math/Elementary.h"
+#include "base/math/SharedExponent.h"
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/SharedBytes.h"
 #include "filament_core/engine/TextureStreamer.h"
@@ -312,7 +313,67 @@ private:
     }
 
     // KHR_lights_punctual and EXT_lights_ies: at the origin of its node, shining along -Z, the profile's +X along +X.
-    LightDesc lightOf(assets::LightData const& light) const {
+    LightDesc lightOf(assets::LightData const& data) {
+        LightDesc light = plainLightOf(data);
+        if (data.tables) addTables(*data.tables, light);
+        return light;
+    }
+
+    /// Words that the parser checked. Lights of the file that share them share what is made of them, too.
+    void addTables(assets::LightTables const& tables, LightDesc& light) {
+        const auto shapeOf = [](LightDesc const& of) {
+            return std::holds_alternative<SunLight>(of)    ? LightImageShape::Tiled
+                   : std::holds_alternative<SpotLight>(of) ? LightImageShape::Projected
+                   : std::holds_alternative<RectLight>(of) ? LightImageShape::Emitted
+                                                           : LightImageShape::Octahedron;
+        };
+        LightImage image{};
+        LightProfile profile{};
+        if (!tables.image.empty()) {
+            image = imageOf(tables, shapeOf(light));
+            mModel->lightImages.push_back(image);
+        }
+        if (!tables.profile.empty()) {
+            profile = profileOf(tables);
+            mModel->profiles.push_back(profile);
+        }
+        if (SunLight* const sun = std::get_if<SunLight>(&light)) {
+            sun->cookie = image;
+            sun->cookieMeters = tables.imageMeters;
+            sun->cookieOffsetMeters = tables.imageOffset;
+        } else if (PointLight* const point = std::get_if<PointLight>(&light)) {
+            point->cookie = image;
+            if (profile) point->profile = profile;
+        } else if (SpotLight* const spot = std::get_if<SpotLight>(&light)) {
+            spot->cookie = image;
+            spot->profile = profile;
+        } else if (RectLight* const rect = std::get_if<RectLight>(&light)) {
+            rect->image = image;
+        }
+    }
+
+    LightImage imageOf(assets::LightTables const& tables, LightImageShape shape) {
+        mModel->lightImages.reserve(mModel->lightImages.size() + 1);
+        std::vector<uint32_t> words = tables.image;
+        words[3] = ++mEngine.lastLightImage;
+        const float3 mean = unpackRgb9E5(words.back()); // of the last level, whose texel its border repeats
+        const LightImageDescription description{ shape, words[0], words[1], mean };
+        Draft draft(mEngine.lightImages);
+        draft.state() = { std::make_shared<const std::vector<uint32_t>>(std::move(words)), tables.aspect, description,
+                          mData.name };
+        return draft.keep();
+    }
+
+    LightProfile profileOf(assets::LightTables const& tables) {
+        mModel->profiles.reserve(mModel->profiles.size() + 1);
+        Draft draft(mEngine.lightProfiles);
+        draft.state() = { std::make_shared<const std::vector<uint32_t>>(tables.profile),
+                          { Candela{ tables.peak }, Lumen{ tables.lumens } },
+                          mData.name };
+        return draft.keep();
+    }
+
+    LightDesc plainLightOf(assets::LightData const& light) const {
         const float3 direction(0, 0, -1);
         if (light.shape != assets::AreaShape::None) return areaOf(light);
         switch (light.type) {

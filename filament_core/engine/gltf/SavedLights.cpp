@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <tuple>
 
 namespace filament_core::engine {
@@ -57,16 +59,50 @@ assets::LightType gltfTypeOf(LightRecord const& record) {
     return hasFront && !record.isTwoSided ? assets::LightType::Spot : assets::LightType::Point;
 }
 
+/// The number near `guess` of which `made` gives `wanted`, to the bit if there is one.
+template <class Made>
+float inverseOf(float wanted, float guess, Made const& made) {
+    float low = guess;
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) low = std::nextafter(low, -std::numeric_limits<float>::infinity());
+    for (int i = 0; i < 2 * kSteps; ++i, low = std::nextafter(low, std::numeric_limits<float>::infinity()))
+        if (made(low) == wanted) return low;
+    return guess;
+}
+
 /// The degrees of which a sun's record has the tangent, to the bit if there are such degrees.
 float angularRadiusOf(float tangent) {
     const double radians = elementary::atan2(double{ tangent }, 1.0);
-    auto nearest = static_cast<float>(glm::degrees(radians));
-    constexpr int kSteps = 64;
-    float low = nearest;
-    for (int i = 0; i < kSteps; ++i) low = std::nextafter(low, -1.0f);
-    for (int i = 0; i < 2 * kSteps; ++i, low = std::nextafter(low, 90.0f))
-        if (low >= 0 && elementary::tan(glm::radians(low)) == tangent) return low;
-    return std::clamp(nearest, 0.0f, 20.0f);
+    const float degrees = inverseOf(tangent, static_cast<float>(glm::degrees(radians)),
+                                    [](float of) { return elementary::tan(glm::radians(of)); });
+    return std::clamp(degrees, 0.0f, 20.0f);
+}
+
+std::shared_ptr<const assets::LightTables> tablesOf(Engine::Impl& engine, LightRecord const& record) {
+    assets::LightTables tables;
+    if (record.image) {
+        tables.image = *record.image;
+        const float2 scale = record.imageScale; // LightRecords.cpp
+        tables.aspect = scale.x / scale.y;
+        engine.lightImages.forEach([&](LightImageState const& state) {
+            if (state.words == record.image) tables.aspect = state.aspect;
+        });
+        if (record.type == LightRecord::Type::Sun) {
+            tables.imageMeters = inverseOf(scale.x, 1 / scale.x, [](float meters) { return 1 / meters; });
+            for (int i = 0; i < 2; ++i)
+                tables.imageOffset[i] = inverseOf(record.imageOffset[i], -record.imageOffset[i] / scale[i],
+                                                  [&](float offset) { return -offset * scale[i]; });
+        }
+    }
+    if (record.profile) {
+        tables.profile = *record.profile;
+        engine.lightProfiles.forEach([&](LightProfileState const& state) {
+            if (state.words != record.profile) return;
+            tables.peak = state.description.peak.value;
+            tables.lumens = state.description.flux.value;
+        });
+    }
+    return std::make_shared<const assets::LightTables>(std::move(tables));
 }
 
 assets::LightData dataOf(LightRecord const& record, std::string const& name) {
@@ -149,11 +185,9 @@ assets::GltfMergeNode savedLight(SaveContext& context, LightRecord const& record
     else
         node.transform = placed(at, isTurned ? record.directionWorld : float3(0, 0, -1),
                                 isTurned ? record.sideWorld : float3(1, 0, 0));
-    if (record.profile || record.image)
-        context.warn("light '{}': its {} is not written; keep the light in a scene file", shown,
-                     record.profile ? "photometric profile" : "image");
     node.light = static_cast<uint32_t>(context.merge.lights.size());
     context.merge.lights.push_back(dataOf(record, shown));
+    if (record.profile || record.image) context.merge.lights.back().tables = tablesOf(context.engine, record);
     return node;
 }
 

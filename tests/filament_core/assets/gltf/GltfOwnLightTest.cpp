@@ -55,6 +55,13 @@ TEST(GltfOwnLight, BadValuesAreWarningsThatNameThePlace) {
           "FILAMENT_light.area.radius: -3 is outside", true },
         { R"({ "version": 1, "castsShadows": false, "area": { "shape": "disc", "luminance": 1e300 } })",
           "FILAMENT_light.area.luminance", true },
+        { R"({ "version": 1, "castsShadows": false, "image": {} })", "FILAMENT_light.image.words", true },
+        { R"({ "version": 1, "castsShadows": false, "image": { "words": "cookie.png" } })",
+          "FILAMENT_light.image.words: it must be a data URI", true },
+        { R"({ "version": 1, "castsShadows": false, "image": { "words": "data:;base64,AQAAAAEAAAAAAAAAAAAAAAUAAAA=" } })",
+          "FILAMENT_light.image: is no image for this light", true },
+        { R"({ "version": 1, "castsShadows": false, "profile": { "words": "data:;base64,AgAAAAEAAAAAAIA/" } })",
+          "FILAMENT_light.profile: is no profile for this light", true },
     };
     for (Bad const& bad : all) {
         SCOPED_TRACE(bad.own);

@@ -45,10 +45,17 @@ inline constexpr const char* kSpecimenExtensions = R"({
     "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 },
     "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 0.5, 0.25, 1 ], "scatterAnisotropy": 0.5,
         "multiscatterColorTexture": { "index": 1 } } })";
-inline constexpr const char* kSpecimenLight = R"({ "type": "spot", "spot": {}, "extensions": { "FILAMENT_light": {
+inline constexpr const char* kSpecimenLight =
+        R"({ "type": "spot", "spot": {}, "extensions": { "FILAMENT_light": {
     "version": 1, "color": [ 2, 1, 0.5 ], "intensity": 7, "castsShadows": false, "contactShadows": true,
     "lightChannels": 3, "sourceRadius": 0.5, "area": { "shape": "rect", "width": 2, "height": 3, "luminance": 9,
-    "twoSided": true, "visible": true } } } })";
+    "twoSided": true, "visible": true }, "image": { "aspect": 1, "words": "data:application/octet-stream;base64,)"
+        "AQAAAAEAAAAAAAAAAAAAAAUAAABCCCGEQgghhEIIIYRCCCGEQgghhEIIIYRCCCGEQgghhEIIIYQ="
+        R"(" } } } })";
+inline constexpr const char* kSpecimenLuminaire = R"({ "type": "spot", "spot": {}, "extensions": { "FILAMENT_light": {
+    "version": 1, "profile": { "peak": 100, "lumens": 300, "words": "data:application/octet-stream;base64,)"
+                                                  "AgAAAAEAAAA4+CI///8AgA=="
+                                                  R"(" } } } })";
 inline constexpr const char* kSpecimenSun = R"({ "type": "directional", "extensions": { "FILAMENT_light": {
     "version": 1, "angularRadius": 2, "showsDisc": true, "haloSize": 20, "haloFalloff": 90 } } })";
 inline constexpr const char* kSpecimenGlossiness = R"({ "KHR_materials_pbrSpecularGlossiness": {
@@ -103,9 +110,11 @@ inline Specimen writtenSpecimen() {
                                                                 file.addView(std::as_bytes(std::span(luminaire))) },
                                                               { "mimeType", "application/x-ies-lm-63" } } };
     file.root["extensions"]["KHR_lights_punctual"]["lights"] =
-            Json::array({ Json::parse(kSpecimenLight), Json::parse(kSpecimenSun) });
-    file.root["nodes"].push_back(Json::parse(R"({ "extensions": { "KHR_lights_punctual": { "light": 1 } } })"));
-    file.root["nodes"][0]["children"].push_back(2);
+            Json::array({ Json::parse(kSpecimenLight), Json::parse(kSpecimenSun), Json::parse(kSpecimenLuminaire) });
+    for (int light = 1; light <= 2; ++light) {
+        file.root["nodes"].push_back({ { "extensions", { { "KHR_lights_punctual", { { "light", light } } } } } });
+        file.root["nodes"][0]["children"].push_back(light + 1);
+    }
     file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
     return specimenFrom(file.root, file.binary);
 }

@@ -257,5 +257,71 @@ TEST_P(SaveLights, OfEveryKindDrawTheSamePixels) {
     test::expectNoErrors(*engine);
 }
 
+/// Coloured stripes.
+Result<LightImage> colorStripes(Engine& engine, uint32_t width, uint32_t height, LightImageShape shape) {
+    std::vector<uint8_t> texels;
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x)
+            for (const uint32_t value : { x * 255 / width, y * 255 / height, (x ^ y) % 2 * 255, 255u })
+                texels.push_back(static_cast<uint8_t>(value));
+    return engine.create(LightImageDesc{
+            .width = width, .height = height, .pixels = std::as_bytes(std::span(texels)), .shape = shape });
+}
+
+TEST_P(SaveLights, WithImagesAndProfilesDrawTheSamePixels) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    const fs::path folder = test::folderOfThisTest();
+    {
+        const auto slide = engine->own(*colorStripes(*engine, 13, 7, LightImageShape::Projected));
+        const auto clouds = engine->own(*colorStripes(*engine, 6, 9, LightImageShape::Tiled));
+        const auto globe = engine->own(*colorStripes(*engine, 36, 6, LightImageShape::Cube));
+        const auto screen = engine->own(*colorStripes(*engine, 16, 9, LightImageShape::Emitted));
+        const std::string_view ies = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 2 1 2 0 0 0\n1 1 9\n0 45 90\n0 90\n"
+                                     "100 70 5\n100 80 9\n";
+        const auto luminaire = engine->own(*engine->create(LightProfileDesc{ std::as_bytes(std::span(ies)), "lamp" }));
+        const auto stage = stageIn(*engine, folder / "stage.glb");
+        ASSERT_TRUE(stage) << stage.error().message;
+        Scene scene(*engine);
+        scene.add(*stage);
+        scene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f },
+                            .illuminance = Lux{ 2 },
+                            .cookie = clouds,
+                            .cookieMeters = 1.7f,
+                            .cookieOffsetMeters = { 0.3f, -0.1f },
+                            .upWorld = { 0.2f, 0.1f, 1 } });
+        scene.add(PointLight{ .positionWorld = { 2, 1.5, 0.3 },
+                              .intensity = Candela{ 5 },
+                              .cookie = globe,
+                              .directionWorld = { -1, -0.3f, 0 } });
+        scene.add(SpotLight{ .positionWorld = { 0, 3, 1 },
+                             .directionWorld = { 0.1f, -3, -1 },
+                             .intensity = Candela{ 20 },
+                             .profile = luminaire,
+                             .cookie = slide });
+        scene.add(RectLight{ .positionWorld = { -1.5, 1, 0 },
+                             .directionWorld = { 1, -0.3f, 0.1f },
+                             .image = screen,
+                             .luminance = Nits{ 4 },
+                             .isVisible = true });
+        const View view{ .camera = Camera::lookAt({ 0.4, 1.8, 3.6 }, { 0, 0.6, 0 }, { .verticalFovDegrees = 50 },
+                                                  kLampExposure),
+                         .size = { 96, 64 } };
+        const Image before = test::renderLinear(*engine, scene, view);
+        const auto saved = saveGltf(scene, folder / "lights.glb");
+        ASSERT_TRUE(saved) << saved.error().message;
+        EXPECT_THAT(saved->warnings, IsEmpty());
+        const auto model = loadGltf(*engine, folder / "lights.glb");
+        ASSERT_TRUE(model) << model.error().message;
+        EXPECT_THAT(model->warnings(), IsEmpty());
+        Scene again(*engine);
+        again.add(*model);
+        EXPECT_EQ(lightsOf(again), lightsOf(scene));
+        EXPECT_EQ(test::differingPixels(before, test::renderLinear(*engine, again, view)), 0u);
+        EXPECT_GT(test::extremesOf(before).most, 0.5f);
+    }
+    test::expectNoErrors(*engine);
+}
+
 } // namespace
 } // namespace filament_core
