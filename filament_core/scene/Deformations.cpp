@@ -20,8 +20,8 @@ void addMoved(MinMax& bounds, MinMax const& box, shader::BoneData const& bone) {
         moved[axis] = glm::dot(float3(row), center) + row.w;
         reach[axis] = glm::dot(glm::abs(float3(row)), half);
     }
-    bounds.add(moved - reach);
-    bounds.add(moved + reach);
+    bounds.min = glm::min(bounds.min, moved - reach); // the reach is not negative: neither corner moves the other side
+    bounds.max = glm::max(bounds.max, moved + reach);
 }
 
 /// The largest displacement of any vertex by the weighted targets.
