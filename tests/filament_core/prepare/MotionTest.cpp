@@ -2,10 +2,12 @@
 // What moved between two frames: generated scenes in which a known set of boxes moves, comes and goes.
 #include "filament_core/prepare/LastFrame.h"
 #include "filament_core/prepare/PrepareMotion.h"
+#include "filament_core/scene/SceneSkins.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -109,6 +111,27 @@ TEST_F(MotionTest, WhatWasNotThereHasNone) {
     last.forget();
     setTransform(scene, second, placeAt({ 1, 0, 0 }));
     EXPECT_TRUE(moved(frame()).empty()) << "there is no last frame";
+}
+
+TEST_F(MotionTest, PrimitivesOfOneSkinShareItsLastBonesToo) {
+    const Skin skin = scene::addSkin(scene, { .bones = std::vector<shader::BoneData>(6) });
+    const auto pose = [&](double x) {
+        scene::setBones(scene, skin, std::vector<float4x4>(6, float4x4(placeAt({ x, 0, 0 }))));
+    };
+    pose(0);
+    scene::MaterialInstance* const look = material();
+    for (uint32_t mesh = 1; mesh <= 3; ++mesh) {
+        const scene::RenderableInput input = box(double4x4(1.0), look, mesh);
+        scene::addDeformed(scene, input,
+                           { .skin = skin, .jointSets = 1, .restBounds = { input.boundsMin, input.boundsMax } });
+    }
+    EXPECT_EQ(frame().deformations.boneCount, 6u);
+    pose(0.5);
+    const FramePacket packet = frame();
+    EXPECT_EQ(moved(packet).size(), 3u);
+    EXPECT_EQ(packet.deformations.boneCount, 12u) << "now and then";
+    for (DeformationPlace const& place : packet.deformations.places) EXPECT_EQ(place.last.begin, 6u);
+    EXPECT_EQ(std::ranges::count(packet.deformations.places, true, &DeformationPlace::ownsLastBones), 1);
 }
 
 TEST_F(MotionTest, OnlyOpaqueObjectsInViewHaveIt) {
