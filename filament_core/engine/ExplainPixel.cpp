@@ -71,7 +71,7 @@ Result<void> addMaterial(Engine& engine, Scene const& scene, engine::ShareStep c
     auto& instances = engine.impl().instances;
     const MaterialInstance handle =
             engine::handleOf(instances, engine::shownInstance(scene, explanation.surface->renderable));
-    if (!instances.isLive(handle)) return {};
+    if (!handle) return {};
     const engine::DrawPixel draw = [&]() -> Result<std::array<uint16_t, 4>> {
         std::array<uint16_t, 4> halves{};
         const Result<void> drawn = engine::drawShares(engine, scene, std::span(&last, 1), frames,

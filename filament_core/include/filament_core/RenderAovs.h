@@ -28,7 +28,7 @@ Result<std::vector<Image>> renderAovs(Renderer& renderer, Scene const& scene, Vi
 /// the hit; the others are 0. No hit: no object has the number, or has it any more.
 PickHit objectOf(Scene const& scene, uint32_t objectId);
 /// What a number of Aov::MaterialId or MaterialInstanceId names, as long as the scene's renderables have the materials
-/// that they had; none: there are not so many.
+/// that they had; none: there are not so many, or it was destroyed and is still drawn.
 Material materialOf(Scene const& scene, uint32_t materialId);
 MaterialInstance materialInstanceOf(Scene const& scene, uint32_t materialInstanceId);
 

@@ -184,6 +184,16 @@ TEST(AovIds, StayWithTheirObjectsWhenOthersComeAndGo) {
     });
 }
 
+// A handle of what was destroyed and is still drawn would end the process that used it.
+TEST(AovIds, DoNotNameWhatWasDestroyed) {
+    IdStage stage(Backend::Vulkan);
+    const MaterialInstance paint = stage.instance(stage.material(kPaint));
+    stage.mesh.add(stage.scene, paint);
+    EXPECT_EQ(materialInstanceOf(stage.scene, 1), paint);
+    stage.instances.clear();
+    EXPECT_FALSE(materialInstanceOf(stage.scene, 1));
+}
+
 // Half floats end at 2048, and so does the first part of the number of a triangle.
 TEST(AovIds, AreExactWhereHalfFloatsAreNot) {
     constexpr uint32_t kBefore = 5000;

@@ -313,7 +313,8 @@ TEST_P(SaveEdits, MeshesOfTheProgramAreReadBack) {
 }
 
 TEST_P(SaveEdits, VertexStreamsAreReadBackAsOne) {
-    const auto paint = engine->own(engine->createInstance(*createBuiltInMaterial(*engine, "lit"), "paint"));
+    const Owned<Material> lit = engine->own(*createBuiltInMaterial(*engine, "lit"));
+    const auto paint = engine->own(engine->createInstance(lit, "paint"));
     const Mesh box = *makeBox();
     const auto indices = engine->own(engine->create(box.indexBuffer()));
     const auto bytesOf = [&](VertexBufferDesc const& desc) {
