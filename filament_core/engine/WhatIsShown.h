@@ -24,8 +24,8 @@ inline scene::MaterialInstance const* shownInstance(Scene const& scene, Renderab
     return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].material;
 }
 
-/// The handle of what the engine keeps at this address; none: it is nothing of its own, or was destroyed and is still in
-/// use.
+/// The handle of what the engine keeps at this address; none: it is nothing of its own, or was destroyed and is still
+/// in use.
 template <class Table, class State>
 auto handleOf(Table& table, State const* state) {
     decltype(table.add()) found{};
