@@ -68,21 +68,23 @@ std::optional<Identified> objectAt(SceneContent const& scene, uint32_t id) {
 }
 
 std::optional<Identified> materialAt(SceneObject const& scene, uint32_t id) {
-    const Material material = materialOf(*scene, id);
-    if (!material) return std::nullopt;
-    Identified found{ .id = id, .name = scene->impl().engine.materials.held(material).name };
-    found.material = found.name;
-    const auto is = [&](OwnedMaterial const& held) { return held.material.get() == material; };
+    scene::Material const* const state = engine::materialAt(*scene, id);
+    if (!state) return std::nullopt;
+    Identified found{ .id = id, .name = state->name, .material = state->name };
+    const auto is = [&](OwnedMaterial const& held) {
+        return &scene->impl().engine.materials.get(held.material) == state;
+    };
     if (auto part = scene.owner()->find<MaterialObject>(is)) found.part = py::cast(part);
     return found;
 }
 
 std::optional<Identified> instanceAt(SceneObject const& scene, uint32_t id) {
-    const MaterialInstance instance = materialInstanceOf(*scene, id);
-    if (!instance) return std::nullopt;
-    scene::MaterialInstance const& state = scene->impl().engine.instances.held(instance);
-    Identified found{ .id = id, .name = state.name, .material = state.material->name, .instance = state.name };
-    const auto is = [&](OwnedInstance const& held) { return held.instance.get() == instance; };
+    scene::MaterialInstance const* const state = engine::instanceAt(*scene, id);
+    if (!state) return std::nullopt;
+    Identified found{ .id = id, .name = state->name, .material = state->material->name, .instance = state->name };
+    const auto is = [&](OwnedInstance const& held) {
+        return &scene->impl().engine.instances.get(held.instance) == state;
+    };
     if (auto part = scene.owner()->find<InstanceObject>(is)) found.part = py::cast(part);
     return found;
 }

@@ -41,12 +41,6 @@ Result<std::vector<Image>> drawAovs(Renderer& renderer, Engine& engine, Scene co
     return images;
 }
 
-/// Numbers count from 1.
-template <class T>
-T const* nth(std::vector<T const*> const& all, uint32_t number) {
-    return number >= 1 && number <= all.size() ? all[number - 1] : nullptr;
-}
-
 } // namespace
 
 Result<std::vector<Image>> renderAovs(Engine& engine, Scene const& scene, View const& view, std::span<const Aov> aovs) {
@@ -77,15 +71,12 @@ PickHit objectOf(Scene const& scene, uint32_t objectId) {
 
 Material materialOf(Scene const& scene, uint32_t materialId) {
     const PublicCall call(&scene.impl(), "materialOf(Scene)");
-    scene::Material const* const found = nth(prepare::materialsOf(scene.impl().data.renderables), materialId);
-    return found ? engine::handleOf(scene.impl().engine.materials, found) : Material{};
+    return engine::handleOf(scene.impl().engine.materials, engine::materialAt(scene, materialId));
 }
 
 MaterialInstance materialInstanceOf(Scene const& scene, uint32_t materialInstanceId) {
     const PublicCall call(&scene.impl(), "materialInstanceOf(Scene)");
-    scene::MaterialInstance const* const found =
-            nth(prepare::instancesOf(scene.impl().data.renderables), materialInstanceId);
-    return found ? engine::handleOf(scene.impl().engine.instances, found) : MaterialInstance{};
+    return engine::handleOf(scene.impl().engine.instances, engine::instanceAt(scene, materialInstanceId));
 }
 
 ExrLayer layerOf(Aov aov, Image const& image) {

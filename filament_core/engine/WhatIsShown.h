@@ -6,8 +6,10 @@
 
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/prepare/NumberObjects.h"
 
 #include <string>
+#include <vector>
 
 namespace filament_core::engine {
 
@@ -22,6 +24,18 @@ inline scene::MaterialInstance const* shownInstance(Scene const& scene, Renderab
     if (!renderable) return nullptr;
     scene::Renderables const& renderables = scene.impl().upToDate().renderables;
     return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].material;
+}
+
+/// What a number of Aov::MaterialId names, which may be destroyed and still be drawn; null: there are not so many.
+inline scene::Material const* materialAt(Scene const& scene, uint32_t number) {
+    const std::vector all = prepare::materialsOf(scene.impl().data.renderables);
+    return number >= 1 && number <= all.size() ? all[number - 1] : nullptr;
+}
+
+/// The same of Aov::MaterialInstanceId.
+inline scene::MaterialInstance const* instanceAt(Scene const& scene, uint32_t number) {
+    const std::vector all = prepare::instancesOf(scene.impl().data.renderables);
+    return number >= 1 && number <= all.size() ? all[number - 1] : nullptr;
 }
 
 /// The handle of what the engine keeps at this address; none: it is nothing of its own, or was destroyed and is still
