@@ -15,12 +15,12 @@ inline void edit(std::string& text, std::mt19937& random, std::string_view marks
     switch (random() % 16) {
     case 0:
         return text.resize(at);
-    case 1: {
+    case 1:
+    case 2: {
         const size_t begin = text.rfind('\n', at);
         if (begin != std::string::npos) text.erase(begin, text.find('\n', begin + 1) - begin);
         return;
     }
-    case 2:
     case 3:
         text[at] = static_cast<char>(random());
         return;
