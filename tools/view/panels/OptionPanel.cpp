@@ -182,8 +182,8 @@ void editOption(PanelFrame& frame, Option const& option, std::string_view value)
 
 void drawOptionPanel(PanelFrame& frame) {
     drawPresets(frame);
-    drawFirstPlane(frame);
     filterField("##option filter", frame.state.optionFilter);
+    drawFirstPlane(frame);
     if (ImGui::BeginChild("options")) {
         for (OptionGroup const& group : frame.options) drawOptionGroup(frame, group);
     }
