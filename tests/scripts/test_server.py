@@ -211,6 +211,23 @@ def killed(program, folder, count=100):
     print(f"killed after {done} of {count} jobs: all {count} answered after the restart")
 
 
+def burst(program, folder, clients=64):
+    """Connections that arrive while the server accepts none wait, and are answered."""
+    server = Server(program, folder, "--workers", "1", "--threads", "4")
+    server.process.send_signal(signal.SIGSTOP)
+    connections = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=20) for _ in range(clients)]
+    for connection in connections:
+        connection.connect()
+        connection.request("GET", "/metrics", headers={"Connection": "close"})
+    server.process.send_signal(signal.SIGCONT)
+    for connection in connections:
+        response = connection.getresponse()
+        assert response.status == 200 and response.read()
+        connection.close()
+    assert server.end() == 0
+    print(f"{clients} connections at once: all answered")
+
+
 def load(program, folder, requests, clients):
     server = Server(program, folder, "--workers", "2", "--threads", str(clients + 8), "--queue", "1000")
     first = server.request("POST", "/v1/render", {"scene": SCENE, "size": [64, 48]})
@@ -282,7 +299,7 @@ def main():
     parser.add_argument("--clients", type=int, default=32)
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
-    for check in (answers, hidden_paths, pressure, workers_end, killed, tools):
+    for check in (answers, hidden_paths, pressure, workers_end, killed, burst, tools):
         with tempfile.TemporaryDirectory() as folder:
             check(program, folder)
     with tempfile.TemporaryDirectory() as folder:

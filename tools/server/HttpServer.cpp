@@ -22,6 +22,7 @@ struct HttpServer::Impl {
     RenderService& service;
     HttpSettings settings;
     httplib::Server server;
+    socket_t listening = INVALID_SOCKET;
 
     Impl(RenderService& renderService, HttpSettings httpSettings)
             : service(renderService), settings(std::move(httpSettings)) {}
@@ -91,9 +92,10 @@ HttpServer::HttpServer(RenderService& service, HttpSettings settings)
     server.set_write_timeout(kIdleSeconds);
     server.set_tcp_nodelay(true);
     // Not the library's SO_REUSEPORT: a second server would share the port, and answer half of the requests.
-    server.set_socket_options([](socket_t socket) {
+    server.set_socket_options([impl = mImpl.get()](socket_t socket) {
         const int on = 1;
         ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+        impl->listening = socket;
     });
     mImpl->addRoutes();
 }
@@ -102,12 +104,12 @@ HttpServer::~HttpServer() = default;
 
 Result<int> HttpServer::bind() {
     HttpSettings const& settings = mImpl->settings;
-    if (settings.port == 0) {
-        const int port = mImpl->server.bind_to_any_port(settings.address);
-        if (port > 0) return port;
-    } else if (mImpl->server.bind_to_port(settings.address, settings.port)) {
-        return settings.port;
-    }
+    const int port = settings.port == 0 ? mImpl->server.bind_to_any_port(settings.address)
+                     : mImpl->server.bind_to_port(settings.address, settings.port) ? settings.port
+                                                                                   : -1;
+    // The library lets five connections wait to be accepted. Linux resets some of those beyond, and their requests are
+    // lost; once more, listen(2) sets the length of the queue alone.
+    if (port > 0 && ::listen(mImpl->listening, SOMAXCONN) == 0) return port;
     return Error{ ErrorCode::Unreadable,
                   fmt::format("cannot listen on {}:{}; is another program there? Give another --port", settings.address,
                               settings.port) };
